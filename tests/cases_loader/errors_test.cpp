@@ -294,7 +294,7 @@ TEST_F(LoaderErrors, Collision_OfConvexBodies) {
        "case.toml:15:15: collision.orientation: at orientation 90 a face or an edge meets flat: no "
        "single corner is the nearest"},
       {convex(box),
-       "case.toml:14:9: collision.shape: at orientation 0 a face or an edge meets flat"},
+       "case.toml:14:9: [collision.shape]: at orientation 0 a face or an edge meets flat"},
       {convex(box, "orientation = 89.95"),
        "case.toml:15:15: collision.orientation = 89.95: at orientation 89.95 a second corner may"},
       {convex(box, angle + "\napproach = \"spin\""),
@@ -302,7 +302,7 @@ TEST_F(LoaderErrors, Collision_OfConvexBodies) {
       {convex(box, angle + "\nsecond_radius = 1"),
        "case.toml:16:17: collision.second_radius = 1: is of second = \"disk\""},
       {convex(box, angle + "\nsecond_shape = { box = [1, 1] }"),
-       "case.toml:16:16: collision.second_shape: is of second = \"body\""},
+       "case.toml:16:16: [collision.second_shape]: is of second = \"body\""},
       {convex(box, angle + "\noffset = 0.1"),
        "case.toml:16:10: collision.offset = 0.1: is along a second body's face"},
       {convex(box, angle + "\nquaternion = [1, 0, 0, 0]"),
@@ -313,11 +313,11 @@ TEST_F(LoaderErrors, Collision_OfConvexBodies) {
        "case.toml:16:10: collision.offset = 0.04: the corner misses the second body's face"},
       {withLine(convex(box, angle + "\nsecond_shape = { sides = 5, radius = 0.1 }"), 10,
                 "second = \"body\""),
-       "case.toml:16:16: collision.second_shape: this body has no flat face towards n"},
+       "case.toml:16:16: [collision.second_shape]: this body has no flat face towards n"},
       {withLine(convex("radius = 0.1", angle), 10, "second = \"wall\""),
        "case.toml:15:15: collision.orientation = 30: is of convex bodies, which have a shape"},
       {withLine(convex(box, angle), 5, "e_n = 0.5\ne_t0 = 0.2"),
-       "case.toml:15:9: collision.shape: takes law.e_t0 = 0"},
+       "case.toml:15:9: [collision.shape]: takes law.e_t0 = 0"},
   };
   for (const Bad& bad : bads) {
     std::ofstream("case.toml") << bad.text;

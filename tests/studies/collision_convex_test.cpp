@@ -54,7 +54,9 @@ void expectTouch(const Case& setup) {
     const VecOf<D> meets = velocityAtContact(impact.body[0]) - velocityAtContact(impact.body[1]);
     EXPECT_NEAR(meets[0], -starts[k].vn, 1e-12);
     EXPECT_NEAR(meets[1], starts[k].psi * starts[k].vn, 1e-12);
-    if (D == 3) EXPECT_NEAR(meets[D - 1], 0.0, 1e-12);
+    if (D == 3) {
+      EXPECT_NEAR(meets[D - 1], 0.0, 1e-12);
+    }
   }
 }
 
@@ -105,8 +107,14 @@ class ImpactEngine : public Engine {
   EffectiveParameters load(const Scene& scene, const Settings&) override {
     scene_ = scene;
     steps_ = 0;
-    EffectiveParameters effective{.engine = "impacts", .dt = scene.dt, .precision = "double"};
-    effective.pairs = {{.pair = "all", .mu = scene.law.mu, .en = scene.law.en}};
+    EffectiveParameters effective;
+    effective.engine = "impacts";
+    effective.dt = scene.dt;
+    effective.precision = "double";
+    PairCoefficients& pair = effective.pairs.emplace_back();
+    pair.pair = "all";
+    pair.mu = scene.law.mu;
+    pair.en = scene.law.en;
     return effective;
   }
   double advance(double t) override {
@@ -123,7 +131,11 @@ class ImpactEngine : public Engine {
     now.turn = scene_.disks.turn;
     return now;
   }
-  Stats stats() const override { return {.steps = steps_}; }
+  Stats stats() const override {
+    Stats stats;
+    stats.steps = steps_;
+    return stats;
+  }
 
  private:
   void step(std::size_t i) {
