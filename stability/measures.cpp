@@ -267,6 +267,32 @@ Curve lean(const RecordingOf<D>& run) {
   });
 }
 
+/// Number of convex bodies that are turned by more than 45° against the start.
+template <int D>
+Curve fallen(const RecordingOf<D>& run) {
+  const SnapshotOf<D>& start = run.snapshots.front();
+  if (!start.turn) return {};
+  return each(run, [&](const SnapshotOf<D>& now) {
+    std::size_t number = 0;
+    for (std::size_t i = 0; now.turn && i < now.turn->size(); ++i)
+      number += run.scene.isConvex(i) &&
+                turnBetween<D>((*start.turn)[i], (*now.turn)[i]) > 0.25 * std::numbers::pi;
+    return static_cast<double>(number);
+  });
+}
+
+/// At the end, those that are not: 0 before.
+template <int D>
+Curve standing(const RecordingOf<D>& run) {
+  Curve curve = fallen(run);
+  if (curve.empty()) return {};
+  const double last = curve.back();
+  std::ranges::fill(curve, 0.0);
+  for (std::size_t i = 0; i < run.scene.disks.size(); ++i) curve.back() += run.scene.isConvex(i);
+  curve.back() -= last;
+  return curve;
+}
+
 template <int D>
 Curve creep(const RecordingOf<D>& run) {
   if (!isWatchedAtRest(run)) return {};
@@ -306,19 +332,62 @@ Curve pileAngleChange(const RecordingOf<D>& run) {
   });
 }
 
-/// Whether two bodies went through each other between two samples: their centres changed sides, and
-/// the straight way between passes deep inside. What has gone round the other is farther by then
-/// than 1.27 of the reach, and no straight way stands for its path: it is one that both velocities
-/// lead along.
+/// Whether two bodies that went through each other by where they are did so: what has gone round
+/// the other is farther by then than 1.27 of the reach, and no straight way stands for its path: it
+/// is one that both velocities lead along.
 /// @param way  of one past the other  @param led  that of its velocity before, and of that after
 template <int D>
-bool crossed(const VecOf<D>& before, const VecOf<D>& way, const std::array<VecOf<D>, 2>& led,
-             double reach) {
-  if (before.dot(before + way) >= 0.0) return false;
+bool wentStraight(const VecOf<D>& way, const std::array<VecOf<D>, 2>& led, double reach) {
   const auto strays = [&](const VecOf<D>& one) { return (one - way).norm() > 0.5 * reach; };
-  if (way.norm() > 1.25 * reach && std::ranges::any_of(led, strays)) return false;
+  return way.norm() <= 1.25 * reach || std::ranges::none_of(led, strays);
+}
+
+/// Whether a disk went through another between two samples: their centres changed sides, and the
+/// straight way between passes deep inside.
+template <int D>
+bool crossed(const VecOf<D>& before, const VecOf<D>& way, double reach) {
+  if (before.dot(before + way) >= 0.0) return false;
   const double fraction = std::clamp(-before.dot(way) / way.squaredNorm(), 0.0, 1.0);
   return (before + fraction * way).norm() < 0.5 * reach;
+}
+
+/// Radius of the largest circle, or sphere, about the centre of mass that is inside a body [m].
+template <int D>
+double innerRadius(const SceneOf<D>& scene, std::size_t i, double radius) {
+  if (i >= scene.disks.size() || !scene.isConvex(i)) return radius;
+  const ShapeOf<D> point{ShapeKind::capsule, {VecOf<D>::Zero()}, 0.0};
+  return overlapOf<D>(PlacedBody<D>(scene, i, VecOf<D>::Zero(), noTurn<D>()).get(), {&point});
+}
+
+/// The same of bodies of which one is convex. Centres tell nothing of a plank that another slides
+/// along: the two overlapped on the straight way by more than half of what their inner radii are
+/// together, and the shortest way out, along which a solver parts them, is reversed.
+/// @param inner  sum of the inner radii [m]
+/// @param turns  before and after; null: as at the start
+template <int D>
+bool crossed(const SceneOf<D>& scene, std::size_t i, std::size_t j, const VecOf<D>& before,
+             const VecOf<D>& way, double reach, double inner,
+             const std::array<const std::vector<TurnOf<D>>*, 2>& turns) {
+  const auto overlap = [&](const VecOf<D>& apart, double share) {
+    return overlapOfPair(scene, i, j, apart, turns[share < 0.5 ? 0 : 1]);
+  };
+  const auto wayOut = [&](double share) {
+    const VecOf<D> place = before + share * way;
+    VecOf<D> direction;
+    for (int k = 0; k < D; ++k) {
+      const VecOf<D> little = 1e-6 * reach * VecOf<D>::Unit(k);
+      direction[k] = overlap(place - little, share) - overlap(place + little, share);
+    }
+    return direction;
+  };
+  const int parts = static_cast<int>(std::clamp(std::ceil(4.0 * way.norm() / inner), 1.0, 1e3));
+  double deepest = 0.0;
+  for (int k = 0; k <= parts; ++k) {
+    const double share = static_cast<double>(k) / parts;
+    const VecOf<D> place = before + share * way;
+    if (place.norm() < reach) deepest = std::max(deepest, overlap(place, share));
+  }
+  return deepest > 0.5 * inner && wayOut(0.0).dot(wayOut(1.0)) < 0.0;
 }
 
 /// Adds disks whose centres are behind a plane or outside of a cylinder.
@@ -346,6 +415,10 @@ Curve tunnelled(const RecordingOf<D>& run) {
   const std::vector<double> radius = run.scene.radii();
   std::vector<VecOf<D>> before, after;
   const SnapshotOf<D>* last = nullptr;
+  std::vector<double> inner;
+  for (std::size_t k = 0; !run.scene.shapes.empty() && k < radius.size(); ++k)
+    inner.push_back(innerRadius(run.scene, k, radius[k]));
+  const auto turnsOf = [](const SnapshotOf<D>& at) { return at.turn ? &*at.turn : nullptr; };
   for (const SnapshotOf<D>& now : run.snapshots) {
     after = now.position;
     const std::vector<VecOf<D>> walls = wallDisksAt(run.scene, now.positionTime);
@@ -358,10 +431,15 @@ Curve tunnelled(const RecordingOf<D>& run) {
     if (last)
       for (std::size_t i = 0; i < disks; ++i)
         for (std::size_t j = i + 1; j < after.size(); ++j) {
-          const VecOf<D> apart = apartIn<D>(run.scene, before[i] - before[j]);
-          if (crossed<D>(apart, (after[i] - before[i]) - (after[j] - before[j]),
-                         {led(*last, i) - led(*last, j), led(now, i) - led(now, j)},
-                         radius[i] + radius[j]))
+          const VecOf<D> apart = apartIn<D>(run.scene, before[i] - before[j]),
+                         way = (after[i] - before[i]) - (after[j] - before[j]);
+          const double reach = radius[i] + radius[j];
+          const bool convex = run.scene.isConvex(i) || (j < disks && run.scene.isConvex(j));
+          if ((convex ? crossed<D>(run.scene, i, j, apart, way, reach, inner[i] + inner[j],
+                                   {turnsOf(*last), turnsOf(now)})
+                      : crossed<D>(apart, way, reach)) &&
+              wentStraight<D>(way, {led(*last, i) - led(*last, j), led(now, i) - led(now, j)},
+                              reach))
             through.insert(i);
         }
     addBehindWalls(run, now, through);
@@ -609,6 +687,10 @@ constexpr std::array measures = {
     StabilityMeasure{"creep", "diameters/s", "farthest displacement at rest, by the time watched",
                      creep<2>, creep<3>},
     StabilityMeasure{"lean", "rad", "farthest turn of a convex body at rest", lean<2>, lean<3>},
+    StabilityMeasure{"fallen", "bodies", "convex bodies turned by more than 45° at once", fallen<2>,
+                     fallen<3>},
+    StabilityMeasure{"standing", "bodies", "convex bodies not turned by 45° at the end",
+                     standing<2>, standing<3>},
     StabilityMeasure{"pile_angle_change", "degrees", "of the slope of a pile at rest",
                      pileAngleChange<2>, pileAngleChange<3>},
     StabilityMeasure{"copies_differ", "diameters",

@@ -44,7 +44,7 @@ const Family families[] = {
      {"max_overlap", "tunnelled", "escaped"}},
     {"rest",
      "Do disks at rest stay at rest?",
-     {"kinetic_at_rest", "creep", "pile_angle_change", "time_to_rest"}},
+     {"kinetic_at_rest", "creep", "lean", "fallen", "pile_angle_change", "time_to_rest"}},
     {"cycles", "Do repeated loads come back to where they were?", {"ratchet"}},
     {"time step", "How near to theory is the largest stable time step?", {"step_limit"}},
     {"copies", "Do turned, shifted and scaled copies behave alike?", {"copies_differ"}},

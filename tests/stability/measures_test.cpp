@@ -266,6 +266,59 @@ TEST(StabilityMeasures, GoingRoundEachOther_IsNotGoingThrough) {
   EXPECT_EQ(at.last("tunnelled"), 0.0);
 }
 
+/// A box of 0.2 m and a wall of 2 × 0.1 m, upright at x = 0, that are seen at x_0 and y_0 of the
+/// box.
+struct BoxAndWall : Series {
+  BoxAndWall() {
+    run.snapshots.clear();
+    run.scene.shapes = {{ShapeKind::polygon, {{-0.1, -0.1}, {0.1, -0.1}, {0.1, 0.1}, {-0.1, 0.1}}},
+                        {ShapeKind::polygon, {{-0.05, -1}, {0.05, -1}, {0.05, 1}, {-0.05, 1}}}};
+    run.scene.disks.shape = {0, 1};
+    run.scene.disks.radius = {std::hypot(0.1, 0.1), std::hypot(0.05, 1.0)};
+    run.scene.disks.turn = {0.0, 0.0};
+  }
+  void see(double x, double y = 0.0, double turn = 0.0, double speed = 1.0) {
+    const auto t = static_cast<double>(run.snapshots.size());
+    look(t, {x, y}, {0, 0}, {speed, 0}, {0, 0}).turn = {turn, 0.0};
+  }
+};
+
+TEST(StabilityMeasures, BoxGoesThroughAWall) {
+  for (const double end : {0.4, 0.06}) {  // out on the other side, or deep inside beyond its middle
+    BoxAndWall at;
+    at.see(-0.4);
+    EXPECT_EQ(at.last("tunnelled"), 0.0);
+    at.see(end);
+    EXPECT_EQ(at.last("tunnelled"), 1.0) << end;
+  }
+  BoxAndWall sinks;  // slowly, and comes out behind
+  for (const double x : {-0.2, -0.12, -0.04, 0.04, 0.12, 0.2}) sinks.see(x);
+  EXPECT_EQ(sinks.curve("tunnelled"), (std::vector<double>{0, 0, 0, 1, 1, 1}));
+}
+
+/// Centres change sides, or come near each other, and nothing went through.
+TEST(StabilityMeasures, BoxThatReboundsSlidesOrPassesByAWall_IsNotThroughIt) {
+  BoxAndWall rebounds;
+  for (const double x : {-0.4, -0.06, -0.4}) rebounds.see(x);
+  EXPECT_EQ(rebounds.last("tunnelled"), 0.0);
+  BoxAndWall slides;
+  for (const double y : {-0.5, -0.1, 0.1, 0.5}) slides.see(-0.15, y);
+  EXPECT_EQ(slides.last("tunnelled"), 0.0);
+  BoxAndWall over;  // above its upper end
+  for (const double x : {-0.4, 0.4}) over.see(x, 1.11);
+  EXPECT_EQ(over.last("tunnelled"), 0.0);
+}
+
+TEST(StabilityMeasures, FallenBodiesAreTurnedByHalfARightAngle) {
+  BoxAndWall at;
+  for (const double turn : {0.0, -0.7, -0.8, -0.1}) at.see(-3.0, 0.0, turn);
+  EXPECT_EQ(at.curve("fallen"), (std::vector<double>{0, 0, 1, 0}));
+  EXPECT_EQ(at.curve("standing"), (std::vector<double>{0, 0, 0, 2}));
+  Series disks;
+  EXPECT_TRUE(disks.curve("fallen").empty());
+  EXPECT_TRUE(disks.curve("standing").empty());
+}
+
 /// Disks that stay together have e_n = 0: far from an elastic law's 1, and next to nothing from
 /// that of dampers at 0.95 of critical, exp(−π 0.95/√(1 − 0.95²)).
 TEST(StabilityMeasures, RestitutionOfDisksThatDoNotPartIsZero) {
