@@ -92,6 +92,17 @@ def no_friction(scene, arrays):
     scene['law']['mu'] = 0.0
 
 
+def much_gravity(scene, arrays):
+    """Gravity is ten times as strong."""
+    scene['gravity'] = [10 * g for g in scene['gravity']]
+
+
+def small_shapes(scene, arrays):
+    """Bodies meet when their cores do, of a hundredth of their size."""
+    for shape in scene['shapes']:
+        shape['vertices'] = [[0.01 * x for x in vertex] for vertex in shape['vertices']]
+
+
 # ---- of snapshots: fault(snapshot, arrays) ----
 
 def not_normalised(snapshot, arrays):
@@ -120,9 +131,14 @@ def half_the_load(snapshot, arrays):
         arrays['contacts.normal_force'] *= 0.5
 
 
+def faster(snapshot, arrays):
+    """Velocities are too large by as much as seconds have passed."""
+    arrays['velocity'] *= 1 + snapshot['velocity_time']
+
+
 OF_SCENES = [inertia_of_disk, moments_in_another_order, no_torque, corner_missed, turned_the_other_way, no_restitution, less_friction,
-             no_friction]
-OF_SNAPSHOTS = [not_normalised, one_point, spin_of_the_body, half_the_load]
+             no_friction, much_gravity, small_shapes]
+OF_SNAPSHOTS = [not_normalised, one_point, spin_of_the_body, half_the_load, faster]
 FAULTS = {fault.__name__: fault for fault in OF_SCENES + OF_SNAPSHOTS}
 
 
