@@ -106,6 +106,8 @@ class Box2dImpulse : public Engine {
          "enduring ones apart by up to Box2D's slop, and slop/dt is of this order"},
         {"velocity_iterations", 8.0, "-", "of Box2D's velocity solver", {}, 1.0, 1e6, true},
         {"position_iterations", 3.0, "-", "of Box2D's position solver", {}, 1.0, 1e6, true}};
+    for (SettingSpec& spec : can.settings)
+      if (spec.whole) spec.role = SettingRole::iterations;
     can.limits = box2dLimits();
     return can;
   }

@@ -21,6 +21,12 @@ enum class Support { optional, always, never };
 using SettingValue = std::variant<bool, double, std::string>;
 using Settings = std::map<std::string, SettingValue>;
 
+/// What a setting is to the engine, where something can be made of that without knowing its name.
+enum class SettingRole {
+  none,
+  iterations  ///< a number of passes or parts that its solver makes of a step: more take longer
+};
+
 struct SettingSpec {
   std::string name;
   SettingValue defaultValue;  ///< its alternative is the setting's type
@@ -30,6 +36,7 @@ struct SettingSpec {
   // Of a number.
   double least = 0.0, most = std::numeric_limits<double>::infinity();
   bool whole = false;
+  SettingRole role = SettingRole::none;
 };
 
 /// Abilities of an engine, as it reports them.

@@ -63,6 +63,9 @@ enum class PlaneNormals { any, axis };
 constexpr auto namesOf(PlaneNormals) {
   return std::array<std::string_view, 2>{"any", "axis"};
 }
+constexpr auto namesOf(SettingRole) {
+  return std::array<std::string_view, 2>{"none", "iterations"};
+}
 enum class RestitutionOf { pair, body };
 constexpr auto namesOf(RestitutionOf) {
   return std::array<std::string_view, 2>{"pair", "body"};
@@ -85,7 +88,12 @@ void fields(auto& io, SettingSpec& spec) {
   io("least", spec.least);
   io.present("most", most);
   io("whole", spec.whole);
-  if (io.reading) spec.most = most.value_or(std::numeric_limits<double>::infinity());
+  io.when(spec.role != SettingRole::none, "role", spec.role);
+  if (!io.reading) return;
+  spec.most = most.value_or(std::numeric_limits<double>::infinity());
+  if (spec.role == SettingRole::iterations &&
+      !(spec.whole && std::get_if<double>(&spec.defaultValue)))
+    throw FieldError("settings: " + spec.name + ": iterations are a whole number");
 }
 
 void fields(auto& io, SceneLimits& limits) {

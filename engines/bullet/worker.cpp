@@ -22,7 +22,7 @@ int main() {
            setting("friction_directions", 2.0, "-",
                    "in space, of a contact: along its slip, or across it, too; Bullet's own is 1"),
            1.0, 2.0, true),
-       within(setting("iterations", 10.0, "-", "of the solver"), 1.0, 1e6, true),
+       iterations(10.0, "of the solver"),
        within(setting("erp", 0.2, "-", "share of an overlap that a step pushes apart"), 0.0, 1.0,
               false),
        setting("restitution_threshold", 0.0, "m/s",

@@ -32,6 +32,13 @@ inline Json within(Json setting, double least, double most, bool whole) {
   return setting;
 }
 
+/// Passes or parts that a solver makes of a step.
+inline Json iterations(double value, const char* doc, double least = 1.0) {
+  Json entry = within(setting("iterations", value, "-", doc), least, 1e6, true);
+  entry["role"] = "iterations";
+  return entry;
+}
+
 /// Description that an engine gives of itself.
 struct ImpulseAbout {
   std::string name, version, integrator;

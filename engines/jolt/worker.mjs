@@ -16,8 +16,8 @@ serve(new ImpulseEngine({
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 5e-4,
   settings: [
-    {name: 'velocity_iterations', default: 10, ...share, doc: 'of the impulse solver', least: 2, most: 1e6, whole: true},
-    {name: 'position_iterations', default: 2, ...share, doc: 'of what pushes overlaps apart', least: 0, most: 1e6, whole: true},
+    {name: 'velocity_iterations', default: 10, ...share, doc: 'of the impulse solver', least: 2, most: 1e6, whole: true, role: 'iterations'},
+    {name: 'position_iterations', default: 2, ...share, doc: 'of what pushes overlaps apart', least: 0, most: 1e6, whole: true, role: 'iterations'},
     {name: 'baumgarte', default: 0.2, ...share, doc: 'share of an overlap that is pushed apart in an iteration', least: 0, most: 1},
     {name: 'slop', default: 1e-3, ...share, doc: 'overlap that is left standing, in smallest radii', least: 0, most: 1},
     {name: 'speculative_distance', default: 0, ...share, doc: 'gap up to which contacts act, in smallest radii', least: 0, most: 1},

@@ -59,7 +59,7 @@ class Engine {
               {{"least", 1e-4}, {"most", 0.9999}}),
           setting("solver", "CG", "CG or Newton", {{"choices", {"CG", "Newton"}}}),
           setting("iterations", 100.0, "most of its solver in a step",
-                  {{"least", 1.0}, {"most", 1e6}, {"whole", true}}),
+                  {{"least", 1.0}, {"most", 1e6}, {"whole", true}, {"role", "iterations"}}),
           setting("tolerance", 1e-14, "of its solver", {{"least", 0.0}, {"most", 1.0}})}}};
   }
 

@@ -25,10 +25,10 @@ int main() {
        {"rolling", {"none", "constant_torque"}},
        {"rolling_load", {"compression"}}},
       {setting("dt", 5e-4, "s", "time step; 0: the case's"),
-       within(setting("iterations", 20.0, "-",
-                      "of QuickStep; 0: dWorldStep, which solves directly, in a time that grows "
-                      "with the cube of the contacts"),
-              0.0, 1e6, true),
+       iterations(20.0,
+                  "of QuickStep; 0: dWorldStep, which solves directly, in a time that grows with "
+                  "the cube of the contacts",
+                  0.0),
        // It converges between 0 and 2 (Kahan 1958); at 0 no contact would act.
        within(setting("relaxation", 1.3, "-", "of QuickStep's successive over-relaxation"), 0.01,
               1.99, false),

@@ -6,7 +6,7 @@ import {serve} from '../node/crossgrain_worker.mjs';
 import {ImpulseEngine} from '../node/impulse_engine.mjs';
 import {PhysxWorld, version} from './world.mjs';
 
-const iterations = {unit: '-', choices: [], least: 1, most: 255, whole: true};
+const iterations = {unit: '-', choices: [], least: 1, most: 255, whole: true, role: 'iterations'};
 serve(new ImpulseEngine({
   name: 'physx',
   version,

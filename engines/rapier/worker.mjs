@@ -17,7 +17,7 @@ serve(new ImpulseEngine({
   integrator: 'semi_implicit_euler with sequential impulses',
   dt: 5e-4,
   settings: [
-    {name: 'iterations', default: 4, unit: '-', doc: 'of the solver, each a part of the step', choices: [], least: 1, most: 1e6, whole: true},
+    {name: 'iterations', default: 4, unit: '-', doc: 'of the solver, each a part of the step', choices: [], least: 1, most: 1e6, whole: true, role: 'iterations'},
     {name: 'natural_frequency', default: 30, unit: '1/s', doc: 'of what pushes overlaps apart', choices: [], least: 0, most: 1e6},
   ],
 }, RapierWorld));

@@ -36,7 +36,7 @@ class Siconos:
             "settings": [
                 setting("dt", 5e-4, "s", "time step; 0: the case's"),
                 setting("tolerance", 1e-6, "-", "of the friction-contact problem's residual", least=1e-16, most=1.0),
-                setting("iterations", 200.0, "-", "most of its solver, in a step", least=1.0, most=1e6, whole=True),
+                setting("iterations", 200.0, "-", "most of its solver, in a step", least=1.0, most=1e6, whole=True, role="iterations"),
             ],
         }
 

@@ -192,6 +192,10 @@ TEST(WorkerJson, CapabilitiesSettingsParametersStats_ComeBack) {
     EXPECT_EQ(back.limits.restitutionPerBody, can.limits.restitutionPerBody);
     EXPECT_EQ(back.settings.at(1).defaultValue, SettingValue(std::string("fast")));
   }
+  SettingSpec passes{"passes", 4.0, "-", "", {}, 1.0, 9.0, true, SettingRole::iterations};
+  EXPECT_EQ(expectComesBack(passes).role, SettingRole::iterations);
+  passes.whole = false;
+  EXPECT_THROW(readAs<SettingSpec>(jsonOf(passes)), FieldError);
   const Settings settings = {{"a", true}, {"b", 0.1}, {"c", std::string("x")}};
   EXPECT_EQ(expectComesBack(settings), settings);
   const EffectiveParameters effective = engine.load(test::toyScene(), {});
