@@ -49,7 +49,8 @@ struct PairImpacts {
 };
 
 /// Settings and measures of `crossgrain cost` in a flow, [cost] of a case file. Steps are numbers
-/// of steps in the contact time t_c of the lightest pair.
+/// of steps in the contact time t_c of the lightest pair; of rigid bodies, whose contacts take no
+/// time, in the case's own step.
 struct Cost {
   std::vector<CostKind> kinds = {costKinds.begin(), costKinds.end()};
   std::vector<std::string> knobs = {costKnobs.begin(), costKnobs.end()};
@@ -76,6 +77,11 @@ struct Cost {
   /// The case's packings and averaging.
   std::vector<double> averageSteps = {100, 50, 20, 10, 5, 2};
   double averageReference = 200.0;
+
+  /// Of rigid bodies in place of averageSteps; and of each number that an engine declares as
+  /// iterations, in units of that which it runs with.
+  std::vector<double> rigidSteps = {0.25, 0.5, 1, 2, 4, 8};
+  std::vector<double> iterations = {0.25, 0.5, 2, 4, 8};
 
   std::vector<std::string> tangential = {"viscous", "coulomb",
                                          "spring"};  ///< in place of the law's

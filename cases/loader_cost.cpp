@@ -60,6 +60,11 @@ std::vector<Key<Cost>> costTable() {
           "steps of averages over whole runs of all packings"),
       key("average_reference", &Cost::averageReference, steps,
           "steps of the ensemble that they are compared with"),
+      key("rigid_steps", &Cost::rigidSteps, positive(),
+          "steps of rigid bodies in the case's own step: 0.5 is twice that, 2 is half of it"),
+      key("iterations", &Cost::iterations, positive(),
+          "of rigid bodies: what engines declare as iterations, in units of the number that they "
+          "run with; at every step that makes them no more than the largest of both lists"),
       key("tangential", &Cost::tangential,
           Names{"none", "coulomb", "viscous", "spring", "spring_dashpot"},
           "laws in place of the case's")};
@@ -70,9 +75,12 @@ const Section<Cost>& costKeys() {
       {.name = "cost",
        .kinds = "couette, assembly",
        .commands = "cost",
-       .note =
-           "Steps are numbers of steps in the contact time t_c of the lightest pair; of a law "
-           "that stiffens, of its fastest impact here (without its dashpot). Lists may be empty."},
+       .note = "Steps are numbers of steps in the contact time t_c of the lightest pair; of a law "
+               "that stiffens, of its fastest impact here (without its dashpot). Rigid bodies have "
+               "no contact "
+               "time: of them endpoints with `expected` are judged, in units of their margins, and "
+               "steps "
+               "are parts of the case's own. Lists may be empty."},
       costTable());
   return section;
 }

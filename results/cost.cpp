@@ -32,6 +32,10 @@ std::optional<std::string> schemeOf(const std::string& knob, const std::string& 
   return setting.substr(0, comma);
 }
 
+std::string withoutStep(const std::string& knob, const std::string& setting) {
+  return knob == "time_step" ? "" : setting.substr(0, setting.find(','));
+}
+
 std::size_t CostResults::count(Status status) const {
   return static_cast<std::size_t>(std::ranges::count(points, status, &CostPoint::status));
 }

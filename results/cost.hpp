@@ -28,6 +28,9 @@ inline constexpr Words aKnob{
     },
     "a knob"};
 
+/// Measure of the largest of the errors of all endpoints, where these are in margins.
+inline constexpr const char* largestError = "largest_error";
+
 /// Whether a target is reached, as files and reports call it. Undecided: the error's interval holds
 /// the target; not reached: and every setting of the plan that may do better was run; not measured:
 /// nor was every such setting.
@@ -160,6 +163,10 @@ std::string withoutOwn(const std::string& measure);
 /// Which series of time steps a setting belongs to: that of an engine's own integrator (empty), or
 /// of another one, whose settings are "INTEGRATOR, STEP". Absent of settings of other knobs.
 std::optional<std::string> schemeOf(const std::string& knob, const std::string& setting);
+
+/// What a setting is but for its step: "iterations = 8" of "iterations = 8, dt/2"; empty of a step
+/// alone.
+std::string withoutStep(const std::string& knob, const std::string& setting);
 
 /// Reference of the points of one kind of error.
 struct CostReference {
@@ -320,7 +327,8 @@ struct Advice : CostTime {
   /// simulated: (statistical/target)², of the measure that takes longest.
   std::optional<double> length;
   /// The point that stands in the way, if it is not reached; if it is, an average that does not
-  /// decide and has the largest upper end. `decides`: what would decide on it.
+  /// decide and has the largest upper end, `decides` is what would decide on it; or, of closed
+  /// forms, a point of a smaller step that is not as near.
   std::optional<std::size_t> obstacle;
   std::optional<std::size_t> model;  ///< as of CostCell
   std::string decides;
@@ -406,6 +414,8 @@ struct CostResults : FlowFrame {
   std::vector<EngineRow> engines;
   std::vector<PackingRow> packings;
 
+  /// Errors and targets are in margins of the case, not fractions of a scale.
+  bool inMargins = false;
   std::optional<double> target;               ///< --want: an accuracy asked for besides the usual
   std::optional<double> budget;               ///< for all that was measured [s]
   std::optional<double> budgetForTheRest;     ///< for what did not fit, all else kept [s]
@@ -442,6 +452,7 @@ struct CostResults : FlowFrame {
     io("elapsed_s", elapsed);
     io("engines", engines);
     io("packings", packings);
+    io.when(inMargins, "in_margins", inMargins);
     io.present("want", target);
     io("budget_s", budget);
     io("budget_for_the_rest_s", budgetForTheRest);

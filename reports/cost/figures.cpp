@@ -225,17 +225,60 @@ Panel envelopePanel(const CostResults& results, const CostMeasure& measure) {
   return panel;
 }
 
+/// Errors of rigid bodies in margins against time: a line per engine over its front, open its other
+/// settings, a ring at the cheapest within the margin.
+Panel marginPanel(const CostResults& results, const CostMeasure& measure) {
+  Panel panel = errorPanel(measure, "", "processor time of a simulated second [s]");
+  panel.yLabel = "error [margins]";
+  // What is farther off than a thousand margins is wrong, below a thousandth nobody asks.
+  constexpr Range range{1e-3, 1e3};
+  panel.yRange = range;
+  panel.shadedTo = 1.0;
+  const std::vector<LineStyle> styles = engineStyles(results.engines);
+  Curve rings{"", {"#000000", 6, false}, Draw::points, {}, 2.5};
+  for (std::size_t e = 0; e < results.engines.size(); ++e) {
+    const std::string& engine = results.engines[e].name;
+    Curve line{engine, styles[e], Draw::linesAndPoints, {}, 1.5};
+    Curve others{"", openMarks(styles[e]), Draw::points, {}, 0.7};
+    const auto front = std::ranges::find_if(results.fronts, [&](const Front& one) {
+      return one.engine == engine && one.measure == measure.name;
+    });
+    for (std::size_t k = 0; k < results.points.size(); ++k) {
+      const CostPoint& point = results.points[k];
+      if (point.engine != engine || !measure.has(point) || !point.measured() || !point.time())
+        continue;
+      const Point mark{*point.time(), std::clamp(*point.error, range.low, range.high), {}};
+      const bool isBest = front != results.fronts.end() &&
+                          std::ranges::find(front->points, k) != front->points.end();
+      (isBest ? line : others).points.push_back(mark);
+      if (std::ranges::any_of(results.advice, [&](const Advice& one) {
+            return one.engine == engine && one.target == 1.0 && one.verdict == Verdict::pass &&
+                   one.knob == point.knob && one.setting == point.setting;
+          }))
+        rings.points.push_back(mark);
+    }
+    addCurve(panel, std::move(line));
+    addCurve(panel, std::move(others));
+  }
+  addCurve(panel, std::move(rings));
+  return panel;
+}
+
 /// A figure per measure, as narrow as a small screen.
 std::vector<Figure> pictureOf(const CostResults& results) {
   std::vector<Figure> figures;
+  std::vector<CostMeasure> measures = measuresIn(results.points);
+  std::ranges::stable_partition(
+      measures, [](const CostMeasure& measure) { return measure.name == largestError; });
   for (const CostKind kind : {CostKind::averages, CostKind::collision})
-    for (const CostMeasure& measure : measuresIn(results.points)) {
+    for (const CostMeasure& measure : measures) {
       if (measure.kind != kind || isOwn(measure.name)) continue;
       const bool isEndpoint = kind == CostKind::averages;
       Figure figure;
       figure.name = "cost_picture_" + measure.name;
-      figure.panels = {isEndpoint ? endpointPanel(results, measure)
-                                  : envelopePanel(results, measure)};
+      figure.panels = {results.inMargins ? marginPanel(results, measure)
+                       : isEndpoint      ? endpointPanel(results, measure)
+                                         : envelopePanel(results, measure)};
       if (!hasPoints(figure.panels.front())) continue;
       figure.title = fmt::format("Error of {} against {}", measureText(measure.name),
                                  isEndpoint ? "processor time" : "steps per contact");
@@ -327,6 +370,7 @@ std::string measureText(const std::string& measure) {
   if (scene != measure) return measureText(scene) + ", own limit";
   if (measure == "psi_f") return "Ψ_f";
   if (measure == "e_n") return measure;
+  if (measure == largestError) return "the endpoint that is farthest off";
   if (!measure.starts_with(positions)) return fieldWords(measure);
   const std::string whom = measure.substr(positions.size());
   return "positions, compared with " + (whom == "own" ? "itself" : whom);

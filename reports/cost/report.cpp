@@ -40,6 +40,17 @@ std::string targetText(double target) {
   return power.starts_with("1×") ? power.substr(std::string("1×").size()) : power;
 }
 
+/// An error as the results have it: of rigid bodies "0.32 margins", else a percentage.
+std::string amountText(const CostResults& results, std::optional<double> error) {
+  if (!results.inMargins || !error) return percentText(error);
+  return readable(error) + (*error == 1.0 ? " margin" : " margins");
+}
+
+/// Likewise an accuracy.
+std::string wantText(const CostResults& results, double target) {
+  return results.inMargins ? amountText(results, target) : targetText(target);
+}
+
 /// "--budget 48h", rounded up.
 std::string budgetOption(double seconds) {
   const auto [unit, size] = seconds <= 120.0    ? std::pair("s", 1.0)
@@ -49,20 +60,20 @@ std::string budgetOption(double seconds) {
 }
 
 /// "3.2 % (1.4 % to 5.1 %)"
-std::string intervalText(double value, double low, double high) {
-  const std::string from = percentText(low), to = percentText(high);
-  return from == to ? percentText(value)
-                    : fmt::format("{} ({} to {})", percentText(value), from, to);
+std::string intervalText(const CostResults& results, double value, double low, double high) {
+  const std::string from = amountText(results, low), to = amountText(results, high);
+  return from == to ? amountText(results, value)
+                    : fmt::format("{} ({} to {})", amountText(results, value), from, to);
 }
 
 /// A point's error with its interval, or the reason why it has none.
-std::string errorText(const CostPoint& point) {
+std::string errorText(const CostResults& results, const CostPoint& point) {
   if (point.status == Status::notRun) return "not measured";
   if (!point.ran()) return std::string(nameOf(point.status, costStatusNames));
   if (!point.error) return absentText;
   if (point.saysNothing())
     return percentText(point.error) + ", of one packing: no statistical error";
-  return intervalText(*point.error, point.low(), point.high()) +
+  return intervalText(results, *point.error, point.low(), point.high()) +
          (point.worst ? fmt::format(", worst {}", percentText(point.worst)) : "");
 }
 
@@ -76,9 +87,9 @@ const CostModel* modelOf(const CostResults& results, const auto& of) {
 }
 
 /// "ψ_f: its limit of small steps is off by 25 % (24 % to 26 %)"
-std::string modelText(const CostModel& model) {
+std::string modelText(const CostResults& results, const CostModel& model) {
   return fmt::format("{}: its limit of small steps is off by {}", measureText(model.measure),
-                     intervalText(model.error, model.low, model.high));
+                     intervalText(results, model.error, model.low, model.high));
 }
 
 /// "a tie with t_c/200, skin = 0.001": settings of which it is not known whether they take less.
@@ -124,9 +135,10 @@ std::string decidedText(const CostResults& results) {
     for (const CostCell& cell : results.cells)
       if (cell.basis == basis) ++all, decided += cell.decided();
     if (all > 0)
-      parts.push_back(fmt::format(
-          "{} of {} against {}", decided, all,
-          basis == CostBasis::own ? "engines' own limits of small steps" : "the case's law"));
+      parts.push_back(fmt::format("{} of {} against {}", decided, all,
+                                  basis == CostBasis::own ? "engines' own limits of small steps"
+                                  : results.inMargins     ? "the closed forms"
+                                                          : "the case's law"));
   }
   if (parts.empty()) return "Nothing was measured.";
   return fmt::format("Which setting reaches an accuracy for the least time is decided for {}.",
@@ -141,8 +153,10 @@ std::string countsText(const CostResults& results) {
 }
 
 std::string asToml(const Advice& one, const CostResults& results) {
-  std::string text = fmt::format("# {}, wanted {:g} %: {}", one.engine, 100.0 * one.target,
-                                 nameOf(one.verdict, costVerdictNames));
+  std::string text = fmt::format(
+      "# {}, wanted {}: {}", one.engine,
+      results.inMargins ? wantText(results, one.target) : fmt::format("{:g} %", 100.0 * one.target),
+      nameOf(one.verdict, costVerdictNames));
   const bool reached = one.verdict == Verdict::pass;
   if (!one.setting.empty()) {
     std::vector<std::string_view> kinds;
@@ -161,11 +175,13 @@ std::string asToml(const Advice& one, const CostResults& results) {
   }
   text += "\n";
   const CostModel* model = modelOf(results, one);
-  if (model) text += fmt::format("# {}, {}\n", toString(model->kind), modelText(*model));
+  if (model) text += fmt::format("# {}, {}\n", toString(model->kind), modelText(results, *model));
   if (const CostPoint* point = pointAt(results, one.obstacle); point && !model)
-    text += fmt::format("# {}, {}: {:.2g} to {:.2g} of its scale{}\n", toString(point->kind),
-                        point->measure, point->low(), point->high(),
-                        reached ? ", which does not decide" : "");
+    text += fmt::format("# {}, {}: {:.2g} to {:.2g} {}{}\n", toString(point->kind), point->measure,
+                        point->low(), point->high(), results.inMargins ? "margins" : "of its scale",
+                        !reached            ? ""
+                        : results.inMargins ? " at a smaller step"
+                                            : ", which does not decide");
   if (!one.decides.empty()) text += "# what would decide: " + one.decides + "\n";
   if (!reached) return text;
   text += one.fragment.empty() ? "# the case as it is: nothing to change\n" : one.fragment;
@@ -200,6 +216,19 @@ OverviewCell stabilityCell(const CostResults& results, const std::string& engine
   return cell;
 }
 
+/// "0.41 margins off": the largest error of rigid bodies' case as it is.
+OverviewCell ownCell(const CostResults& results, const std::string& engine) {
+  OverviewCell cell{Verdict::notMeasured, {}, "margins", {}, {}, "trade"};
+  for (const CostPoint* point : largestErrors(results)) {
+    if (point->engine != engine || !point->fragment.empty()) continue;
+    cell.verdict = point->high() <= 1.0 ? Verdict::pass : Verdict::fail;
+    cell.value = point->error;
+    cell.shown = amountText(results, point->error) + " off";
+    cell.words = timeText(*point);
+  }
+  return cell;
+}
+
 /// "0.41 ms": the step of an engine's setting, where all its points have the same.
 std::string stepText(const CostResults& results, const Advice& advice) {
   for (const CostPoint& point : results.points)
@@ -207,6 +236,15 @@ std::string stepText(const CostResults& results, const Advice& advice) {
         point.setting == advice.setting && point.dt)
       return readableDuration(point.dt);
   return {};
+}
+
+/// "but dt/8: creep 3.2 margins": of what rigid bodies reach, a smaller step that does not.
+std::string obstacleText(const CostResults& results, const Advice& advice) {
+  const CostPoint* point = pointAt(results, advice.obstacle);
+  if (!results.inMargins || !point) return {};
+  return fmt::format("{}{}: {} {}", advice.verdict == Verdict::pass ? "but " : "",
+                     settingText(point->knob, point->setting), measureText(point->measure),
+                     amountText(results, point->error));
 }
 
 /// The cheapest setting for an accuracy, or the obstacle to it.
@@ -217,14 +255,15 @@ OverviewCell adviceCell(const CostResults& results, const Advice& advice) {
     cell.value = advice.time();
     cell.shown = settingText(advice.knob, advice.setting);
     cell.words = fmt::format("{}; {}", stepText(results, advice), timeText(advice));
-    for (const std::string& more : {tieText(advice.ties), cheapestText(results, advice)})
+    for (const std::string& more :
+         {tieText(advice.ties), cheapestText(results, advice), obstacleText(results, advice)})
       if (!more.empty()) cell.words += "; " + more;
     return cell;
   }
-  cell.unit = "%";
+  cell.unit = results.inMargins ? "margins" : "%";
   const auto show = [&](double error, const std::string& measure) {
-    cell.value = 100.0 * error;
-    cell.shown = percentText(error) + " off";
+    cell.value = results.inMargins ? error : 100.0 * error;
+    cell.shown = amountText(results, error) + " off";
     cell.words = measureText(withoutOwn(measure));
   };
   const CostPoint* point = pointAt(results, advice.obstacle);
@@ -247,7 +286,7 @@ std::string cheapestOf(const CostResults& results, double target) {
                                   settingText(one.knob, one.setting), stepText(results, one),
                                   timeText(one), timeUnit(*one.costKind())));
   return fmt::format(
-      "{}: {}", targetText(target),
+      "{}: {}", wantText(results, target),
       names.empty() ? "no setting that was tried" : fmt::format("{}", fmt::join(names, " or ")));
 }
 
@@ -295,19 +334,28 @@ std::string nextStep(const CostResults& results) {
 Overview costOverview(const CostResults& results) {
   Overview overview;
   const std::vector<double> targets = answerTargets(results);
-  overview.columns.push_back({"largest stable step",
-                              "The largest time step at which the scene runs as smaller ones do.",
-                              "advice"});
+  if (results.inMargins)
+    overview.columns.push_back({"the case as it is",
+                                "Its largest error, and the time of a second of the scene.",
+                                "trade"});
+  else
+    overview.columns.push_back({"largest stable step",
+                                "The largest time step at which the scene runs as smaller ones do.",
+                                "advice"});
   for (const double target : targets) {
-    std::string shown = targetText(target);  // a number and its unit stay in one line
+    std::string shown = wantText(results, target);  // a number and its unit stay in one line
     if (const std::size_t at = shown.find(' '); at != std::string::npos)
       shown.replace(at, 1, "\u00a0");
     overview.columns.push_back(
-        {shown, fmt::format("The cheapest setting whose errors are below {}.", targetText(target)),
+        {shown,
+         fmt::format("The cheapest setting whose errors are below {}.", wantText(results, target)),
          "advice"});
   }
   for (const std::string& engine : enginesIn(results)) {
-    OverviewRow row{engine, true, {stabilityCell(results, engine)}};
+    OverviewRow row{
+        engine,
+        true,
+        {results.inMargins ? ownCell(results, engine) : stabilityCell(results, engine)}};
     for (const double target : targets) {
       const Advice* const advice = findIf(results.advice, [&](const Advice& one) {
         return one.engine == engine && one.target == target;
@@ -355,9 +403,10 @@ Table accuracyTable(const CostResults& results) {
         const CostPoint* point = pointAt(results, cell.point);
         std::string error;
         if (model)
-          error = modelText(*model);
+          error = modelText(results, *model);
         else if (point)
-          error = fmt::format("{}: {}", measureText(withoutOwn(point->measure)), errorText(*point));
+          error = fmt::format("{}: {}", measureText(withoutOwn(point->measure)),
+                              errorText(results, *point));
         table.rows.push_back(
             {{cell.engine, targetText(cell.target), verdictCell(cell, tieText(cell.ties)),
               timeText(cell), Cell(error, {decidesText(cell.decides)})},
@@ -378,7 +427,8 @@ Table accuracyTable(const CostResults& results) {
 
 /// Per engine and target the recommended setting, with its fragment to paste.
 Blocks adviceBlocks(const CostResults& results) {
-  Table table{{engineNames("engine"), "accuracy", "setting", numbers("time"), remarks("averages")}};
+  Table table{{engineNames("engine"), "accuracy", "setting", numbers("time"),
+               remarks(results.inMargins ? "in the way" : "averages")}};
   Blocks fragments;
   for (const Advice& one : results.advice) {
     const CostPoint* obstacle = pointAt(results, one.obstacle);
@@ -389,22 +439,29 @@ Blocks adviceBlocks(const CostResults& results) {
     std::string remark = tieText(one.ties);
     if (const std::string cheapest = cheapestText(results, one); !cheapest.empty())
       remark += (remark.empty() ? "" : "; ") + cheapest;
-    Cell rest(model      ? modelText(*model)
-              : obstacle ? fmt::format("{}, {}: {}", toString(obstacle->kind),
-                                       measureText(obstacle->measure), errorText(*obstacle))
-                         : "",
+    Cell rest(model               ? modelText(results, *model)
+              : results.inMargins ? obstacleText(results, one)
+              : obstacle
+                  ? fmt::format("{}, {}: {}", toString(obstacle->kind),
+                                measureText(obstacle->measure), errorText(results, *obstacle))
+                  : "",
               {decidesText(one.decides)});
     table.rows.push_back(
-        {{one.engine, targetText(one.target), verdictCell(one, remark), time, rest}});
+        {{one.engine, wantText(results, one.target), verdictCell(one, remark), time, rest}});
     if (one.verdict != Verdict::pass) continue;
-    fragments.push_back(Heading{fmt::format("{} for {}: {}", one.engine, targetText(one.target),
-                                            settingText(one.knob, one.setting))});
+    fragments.push_back(
+        Heading{fmt::format("{} for {}: {}", one.engine, wantText(results, one.target),
+                            settingText(one.knob, one.setting))});
     fragments.push_back(Code{one.fragment.empty() ? "# the case as it is" : one.fragment});
   }
-  table.note =
-      "The cheapest setting that collisions show to reach the accuracy of the case's law and that "
-      "averages do not contradict; the last column has what stands in the way, or an average whose "
-      "scatter cannot decide.";
+  table.note = results.inMargins
+                   ? "The cheapest setting with which every endpoint is that near its closed form; "
+                     "the last column has the endpoint that is in the way."
+                   : "The cheapest setting that collisions show to reach the accuracy of the "
+                     "case's law and that "
+                     "averages do not contradict; the last column has what stands in the way, or "
+                     "an average whose "
+                     "scatter cannot decide.";
   if (fragments.empty()) fragments = {Paragraph{"No engine is shown to reach any accuracy."}};
   fragments.insert(fragments.begin(), std::move(table));
   return fragments;
@@ -421,7 +478,7 @@ Table settingTable(const CostResults& results) {
     table.rows.push_back({{fmt::to_string(place - settings.begin() + 1), point.engine,
                            settingText(point.knob, point.setting),
                            toString(point.kind) + ", " + measureText(point.measure),
-                           timeText(point), errorText(point)}});
+                           timeText(point), errorText(results, point)}});
   }
   table.note = "The number is that in the plots.";
   return table;
@@ -467,7 +524,7 @@ Table notRunTable(const CostResults& results) {
     last = &point;
     table.rows.push_back(
         {{point.engine, toString(point.kind), settingText(point.knob, point.setting),
-          errorText(point), point.reason, measureText(point.measure)}});
+          errorText(results, point), point.reason, measureText(point.measure)}});
   }
   return table;
 }
@@ -476,7 +533,7 @@ Table referenceTable(const CostResults& results) {
   Table table{{"error", "reference", "setting", numbers("its own error"), "note"}};
   for (const CostReference& reference : results.references)
     table.rows.push_back({{toString(reference.kind), reference.engine, reference.setting,
-                           percentText(reference.error), reference.note}});
+                           amountText(results, reference.error), reference.note}});
   for (const Startup& startup : results.startup)
     table.rows.push_back(
         {{"start-up", startup.engine, "", "",
@@ -498,6 +555,16 @@ Names costSentences(const CostResults& results) {
       sentences.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
   return sentences;
 }
+
+constexpr const char* whatMarginsAre =
+    "Each endpoint's distance from its closed form, in units of the case's margin of it: below 1 "
+    "it "
+    "is within. Runs of one start have the same bits, so that errors have no interval; times have "
+    "one, of the rounds in which settings take turns.";
+constexpr const char* whatRigidLinesAre =
+    "A line per engine over its settings that no other one of it beats in both time and error; "
+    "open "
+    "marks: its other ones; grey: within the case's margin; ring: the cheapest setting within.";
 
 std::string whatErrorsAre(CostKind kind) {
   if (kind == CostKind::collision)
@@ -569,14 +636,20 @@ Report reportOf(const CostResults& results) {
   report.section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
   if (Drawings picture = drawingsOf(report.figures, "cost_picture_"); !picture.names.empty())
     report.section("picture", "Error against processor time and steps").blocks = {
-        Paragraph{whatErrorsAre(CostKind::averages)},
-        Paragraph{"A line per engine over its time steps, upright bars: the interval over "
+        Paragraph{results.inMargins ? whatMarginsAre : whatErrorsAre(CostKind::averages)},
+        Paragraph{
+            results.inMargins
+                ? whatRigidLinesAre
+                : "A line per engine over its time steps, upright bars: the interval over "
                   "packings; grey: within the case's margin; ring: the largest step whose whole "
                   "interval lies inside. Collisions: the worst that ran, over phases of a step and "
                   "every pair of the scene; dashed: the largest rms."},
         std::move(picture)};
-  report.section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {
-      accuracyTable(results)};
+  if (results.inMargins)
+    report.section("trade", "Small steps or many iterations").blocks = tradeBlocks(results);
+  else
+    report.section("accuracy", "Which setting reaches an accuracy for the least time").blocks = {
+        accuracyTable(results)};
   for (const CostKind kind : kindsIn(results.points)) {
     if (kind == CostKind::averages) continue;  // has the picture
     report.section("kind-" + toString(kind), "Error against time: " + kindText(kind)).blocks = {
@@ -591,9 +664,10 @@ Report reportOf(const CostResults& results) {
   if (!results.steps.empty())
     report.section("steps", "Time of a step: bodies, threads and ranks").blocks = {
         drawingsOf(report.figures, "cost_steps"), stepTable(results)};
-  addTable("others", "What other settings change", settingTable(results));
+  if (!results.inMargins) addTable("others", "What other settings change", settingTable(results));
   addTable("references", "References and start-up", referenceTable(results));
   addTable("notrun", "What did not run", notRunTable(results));
+  if (results.inMargins) return report;
   report.section("reading", "How to read it").blocks = {
       List{{{"Three kinds of error",
              "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of "

@@ -59,6 +59,14 @@ struct OtherSetting {
 };
 std::vector<OtherSetting> otherSettings(const std::vector<CostPoint>& points);
 
+/// Of rigid bodies, by engine and setting: the points with the largest of all endpoints' errors, or
+/// that of the only one.
+std::vector<const CostPoint*> largestErrors(const CostResults& results);
+
+/// Per engine what smaller steps, more iterations and both take to be within the margins, and the
+/// error at each step and number of iterations.
+Blocks tradeBlocks(const CostResults& results);
+
 /// cost_steps: time of a step and efficiency of workers against bodies; absent where nothing ran.
 std::optional<Figure> stepFigure(const CostResults& results);
 /// An engine, size and number of workers per row.

@@ -13,13 +13,16 @@
 namespace crossgrain::inline studies {
 
 void addCostAnalysis(CostResults& results) {
-  std::vector<double> targets = {0.1, 0.01, 1e-3, 1e-6};
+  std::vector<double> targets = {0.1, 0.01, 1e-3};
+  if (results.inMargins) targets = {10.0, 1.0, 0.1};
+  const std::vector<double> ofCells = targets;
+  if (!results.inMargins) targets.push_back(1e-6);
   if (results.target && std::ranges::find(targets, *results.target) == targets.end())
     targets.push_back(*results.target);
-  results.largestSteps = largestSteps(results.points);
+  if (!results.inMargins) results.largestSteps = largestSteps(results.points);
   results.fronts = paretoFronts(results.points);
   results.advice = advice(results.points, results.models, targets);
-  results.cells = costCells(results.points, results.models);
+  results.cells = costCells(results.points, results.models, ofCells);
 }
 
 namespace {
@@ -271,6 +274,9 @@ struct RatedSetting {
                                          ///< target, else the worst
   std::optional<std::size_t> open = {};  ///< the worst of the kind that can only contradict
   bool cancels = false;                  ///< CountedEnds::cancels of a point
+  /// Of closed forms, at a smaller step with all else alike: a point that is not as near. An error
+  /// that has no scatter crosses 0 somewhere between two steps.
+  std::optional<std::size_t> worse = {};
   CostTime time = {};
 };
 
@@ -320,6 +326,17 @@ void judge(RatedSetting& rated, const CostData& of, const Question& question) {
   if (rated.verdict != Verdict::fail) rated.obstacle = rated.worst;
 }
 
+void findWorse(std::vector<RatedSetting>& settings, const Points& points) {
+  for (RatedSetting& one : settings) {
+    const CostPoint& point = points[one.points.front()];
+    if (one.verdict != Verdict::pass || point.statistical != 0.0) continue;
+    for (const RatedSetting& other : settings)
+      if (other.verdict == Verdict::fail && points[other.obstacle].dt < point.dt &&
+          withoutStep(other.knob, other.setting) == withoutStep(one.knob, one.setting))
+        one.worse = other.obstacle;
+  }
+}
+
 /// Whether some setting meets a target in every measure.
 struct Settled {
   Verdict verdict = Verdict::notMeasured;
@@ -334,11 +351,12 @@ struct Settled {
   std::string decides = {};
 };
 
-/// Better: a better verdict, then less time where it meets the target; elsewhere errors that do
-/// not cancel, then a smaller end.
+/// Better: a better verdict, then, where it meets the target, smaller steps that do, too, and less
+/// time; elsewhere errors that do not cancel, then a smaller end.
 bool isBetter(const RatedSetting& a, const RatedSetting& b) {
   if (a.verdict != b.verdict) return a.verdict < b.verdict;
   const double time = a.time.timeInterval().value, than = b.time.timeInterval().value;
+  if (a.verdict == Verdict::pass && !a.worse != !b.worse) return !a.worse;
   if (a.verdict == Verdict::pass && time != than) return time < than;
   if (a.verdict != Verdict::pass && a.cancels != b.cancels) return b.cancels;
   return a.high < b.high;
@@ -355,7 +373,7 @@ RatedSetting plainest(const std::vector<RatedSetting>& settings, const RatedSett
   };
   const RatedSetting* found = &cheapest;
   for (const RatedSetting& one : settings)
-    if (one.verdict == Verdict::pass &&
+    if (one.verdict == Verdict::pass && !one.worse == !cheapest.worse &&
         one.time.timeInterval().ties(cheapest.time.timeInterval()) && rank(one) < rank(*found))
       found = &one;
   return *found;
@@ -398,21 +416,23 @@ Settled settle(const CostData& of, const Question& question) {
       found.decides = refusal.value_or("");
     return found;
   }
+  findWorse(settings, points);
   RatedSetting best = *std::ranges::min_element(settings, isBetter);
   const bool reached = best.verdict == Verdict::pass;
   if (reached) best = plainest(settings, best, points);
   if (reached || !best.cancels) found.best = best;
   if (reached)
     for (const RatedSetting& one : settings)
-      if (one.verdict == Verdict::pass &&
+      if (one.verdict == Verdict::pass && !one.worse == !best.worse &&
           TiedSetting(one.knob, one.setting) != TiedSetting(best.knob, best.setting) &&
           one.time.timeInterval().ties(best.time.timeInterval()))
         found.ties.push_back({one.knob, one.setting});
-  found.obstacle = reached ? best.open : best.obstacle;
+  found.obstacle = !reached ? best.obstacle : best.open ? best.open : best.worse;
   found.figure = found.obstacle.value_or(best.worst);
   if (best.verdict != Verdict::fail) {
     found.verdict = best.verdict;
-    if (found.obstacle) found.decides = whatDecides(points[*found.obstacle], question.target);
+    if (found.obstacle && !best.worse)
+      found.decides = whatDecides(points[*found.obstacle], question.target);
     return found;
   }
   // Only where all was run that may be better is it shown that nothing reaches the target.

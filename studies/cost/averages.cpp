@@ -9,6 +9,7 @@
 #include "averaging/statistics.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
+#include "results/agreement.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
 #include "studies/flow/endpoint_values.hpp"
@@ -67,6 +68,19 @@ std::optional<PairedError> pairedError(const std::vector<CostRun>& runs,
   return found;
 }
 
+std::optional<PairedError> exactError(const std::vector<CostRun>& runs, const std::string& measure,
+                                      double expected, double unit) {
+  std::vector<double> errors;
+  for (const CostRun& run : runs) {
+    const auto value = valueOf(run, measure);
+    if (!value) return std::nullopt;
+    errors.push_back(std::abs(*value - expected) / unit);
+  }
+  if (errors.empty()) return std::nullopt;
+  const auto [low, high] = std::ranges::minmax(errors);
+  return PairedError{high, 0.0, high, low, high};
+}
+
 namespace {
 
 class AverageErrors final : public ErrorKind {
@@ -81,17 +95,20 @@ class AverageErrors final : public ErrorKind {
     return names;
   }
 
-  std::size_t rounds() const override { return packings().size(); }
+  std::size_t rounds() const override {
+    return exact_ ? static_cast<std::size_t>(study_.setup.cost.repeats) : packings().size();
+  }
 
   double predicted(std::size_t engine, const CostSetting& setting) const override {
     const TimedEngine& timed = study_.engines[engine];
     constexpr double sample = 1e-3;
-    return study_.packingCount() *
+    return static_cast<double>(rounds()) *
            (duration() / study_.stepOf(engine, setting.setup) * timed.scene.step +
             timed.scene.load + timed.start + sample * flowTimes(setting.setup).samples);
   }
 
   double commonTime(std::size_t rounds) const override {
+    if (exact_) return 0.0;
     const Cost& cost = study_.setup.cost;
     int missing = 0;
     for (std::size_t k = 0; k < rounds; ++k)
@@ -101,9 +118,10 @@ class AverageErrors final : public ErrorKind {
   }
 
   double ownTime(std::size_t) const override { return 0.0; }
-  bool keptSuffice() const override { return false; }
+  bool keptSuffice() const override { return exact_; }
 
   void makeReferences(std::size_t rounds) override {
+    if (exact_) return;
     const EngineEntry& entry = study_.inHouse;
     const Case setup = atSteps(study_.setup, entry.name, study_.inHouseEngine->capabilities(),
                                study_.setup.cost.averageReference);
@@ -122,7 +140,8 @@ class AverageErrors final : public ErrorKind {
     Case setup = study_.settingOf(planned).setup;
     setup.run.timeout = std::min(setup.run.timeout, longest);
     const double begin = study_.campaign.elapsed();
-    return endpointsOfRun(study_.entryOf(planned.engine), setup, packings()[round], [&](double) {
+    const Packing& packing = packings()[exact_ ? 0 : round];
+    return endpointsOfRun(study_.entryOf(planned.engine), setup, packing, [&](double) {
       if (study_.campaign.elapsed() - begin > longest)
         throw TakesTooLong(fmt::format("takes more than {:.3g} s, predicted were {:.3g} s", longest,
                                        planned.round));
@@ -139,7 +158,10 @@ class AverageErrors final : public ErrorKind {
     for (const std::string& measure : measures()) {
       CostPoint& point = points.emplace_back(row);
       point.measure = measure;
-      const auto error = pairedError(runs, reference_, measure, alpha, unitOf(measure));
+      const auto error =
+          exact_ ? exactError(runs, measure, endpointNamed(study_.setup, measure).expected.value(),
+                              *unitOf(measure))
+                 : pairedError(runs, reference_, measure, alpha, unitOf(measure));
       if (!error) continue;
       point.error = error->error;
       point.statistical = error->statistical;
@@ -147,13 +169,24 @@ class AverageErrors final : public ErrorKind {
       point.intervalLow = error->low;
       point.intervalHigh = error->high;
     }
+    const auto isMeasured = [](const CostPoint& point) { return point.measured(); };
+    if (inMargins() && points.size() > 1 && std::ranges::all_of(points, isMeasured)) {
+      points.push_back(*std::ranges::max_element(points, {}, &CostPoint::error));
+      points.back().measure = largestError;
+    }
     return points;
   }
 
   void addTo(CostResults& results) const override {
     for (const std::string& measure : measures())
       results.margins.push_back(
-          {measure, unitOf(measure) ? 1.0 / marginsInUnit : marginOf(measure).value});
+          {measure, unitOf(measure) ? 1.0 / marginsInUnit() : marginOf(measure).value});
+    results.inMargins = inMargins();
+    if (exact_)
+      results.references.push_back({.kind = kind(),
+                                    .engine = closedFormName,
+                                    .setting = "expected values of the case",
+                                    .note = fmt::format("one start, run {} times", rounds())});
     if (!reference_.empty())
       results.references.push_back(
           {.kind = kind(),
@@ -164,7 +197,9 @@ class AverageErrors final : public ErrorKind {
   }
 
  private:
-  static constexpr double marginsInUnit = 10.0;
+  /// Of rigid bodies no other kind of error is in other units.
+  bool inMargins() const { return !study_.setup.law.soft(); }
+  double marginsInUnit() const { return inMargins() ? 1.0 : 10.0; }
 
   const std::vector<Packing>& packings() const { return study_.campaign.packings(); }
   double duration() const { return flowDuration(study_.setup); }  // [s]
@@ -174,11 +209,11 @@ class AverageErrors final : public ErrorKind {
   }
 
   /// In units of which errors are, where that is not the reference's size: of an endpoint with an
-  /// absolute margin ten margins, so that a margin is a tenth of it as one of a tenth of the value
-  /// is.
+  /// absolute margin, as all closed forms have, ten margins, so that a margin is a tenth of it as
+  /// one of a tenth of the value is; of rigid bodies one margin.
   std::optional<double> unitOf(const std::string& measure) const {
     if (endpointNamed(study_.setup, measure).byRatio) return std::nullopt;
-    return marginsInUnit * marginOf(measure).value;
+    return marginsInUnit() * marginOf(measure).value;
   }
 
   std::string referenceName(std::size_t packing) const {
@@ -188,6 +223,7 @@ class AverageErrors final : public ErrorKind {
     return study_.inHouseKey(packing, "cost: reference averages");
   }
 
+  const bool exact_ = hasClosedForms(study_.setup);
   std::vector<CostRun> reference_;  ///< by packing
 };
 

@@ -28,8 +28,15 @@ std::optional<PairedError> pairedError(const std::vector<CostRun>& runs,
                                        const std::string& measure, double alpha,
                                        std::optional<double> unit = {});
 
-/// Endpoints of a flow over all packings, packing by packing compared with those of the in-house
-/// engine at a smaller step. Its time is that of a second of the scene.
+/// The same against a closed form: runs of one start have the same bits, so that nothing is
+/// statistical; of an engine whose runs differ the largest counts, and the ends are theirs.
+/// @returns absent where a run has no such number
+std::optional<PairedError> exactError(const std::vector<CostRun>& runs, const std::string& measure,
+                                      double expected, double unit);
+
+/// Endpoints of a flow: of closed forms against these, one start again and again; else over all
+/// packings, packing by packing compared with those of the in-house engine at a smaller step. Its
+/// time is that of a second of the scene.
 std::unique_ptr<ErrorKind> averageErrors(CostStudy& study);
 
 }  // namespace crossgrain::inline studies

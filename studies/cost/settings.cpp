@@ -20,10 +20,8 @@ namespace crossgrain::inline studies {
 
 double costContactTime(const Case& setup) {
   if (!setup.law.soft())
-    throw BadInput(
-        fmt::format("{}: cost counts steps in the contact time of a soft law: rigid bodies "
-                    "have none",
-                    setup.file.string()));
+    throw BadInput(fmt::format("{}: a contact time is of a soft law: rigid bodies have none",
+                               setup.file.string()));
   const Cost& cost = setup.cost;
   double fastest = 0.0, shortest = INFINITY;
   for (const PairImpacts& seen : cost.impacts) fastest = std::max(fastest, seen.fast);
@@ -34,6 +32,15 @@ double costContactTime(const Case& setup) {
   return shortest;
 }
 
+double costStepUnit(const Case& setup) {
+  return setup.law.soft() ? costContactTime(setup) : timeStep(setup);
+}
+
+std::string stepName(const Case& setup, double steps) {
+  if (setup.law.soft()) return fmt::format("t_c/{:g}", steps);
+  return steps > 1.0 ? fmt::format("dt/{:g}", steps) : fmt::format("{:g} dt", 1.0 / steps);
+}
+
 double engineStep(const Case& setup, const std::string& engine, const Capabilities& can) {
   const auto own = stepOfItsOwn(setup, engine, can);
   return own ? *own : timeStep(setup);
@@ -41,13 +48,14 @@ double engineStep(const Case& setup, const std::string& engine, const Capabiliti
 
 std::string stepFragment(const Case& setup, const std::string& engine, const Capabilities& can,
                          double steps) {
-  const double dt = costContactTime(setup) / steps;
+  const double dt = costStepUnit(setup) / steps;
   Case unset = setup;  // the fragment's step replaces that of [run]
   unset.run.dt.reset();
   if (stepOfItsOwn(unset, engine, can)) return fmt::format("[engines.{}]\ndt = {}\n", engine, dt);
   // The loader takes so few steps for a slip of the pen, and counts none in a contact time that
   // depends on the speed.
-  if (steps < 2.0 || setup.law.stiffens()) return fmt::format("[run]\ndt = {}\n", dt);
+  if (steps < 2.0 || setup.law.stiffens() || !setup.law.soft())
+    return fmt::format("[run]\ndt = {}\n", dt);
   return fmt::format("[run]\nsteps_per_contact = {:g}\n", steps);
 }
 
@@ -75,7 +83,7 @@ CostPoint pointOf(const std::string& engine, const CostSetting& setting, CostKin
   point.fragment = setting.fragment;
   point.kind = kind;
   if (dt > 0.0) point.dt = dt;
-  point.stepsPerContact = costContactTime(setting.setup) / dt;
+  if (setting.setup.law.soft()) point.stepsPerContact = costContactTime(setting.setup) / dt;
   return point;
 }
 
@@ -108,9 +116,16 @@ struct SettingList {
   }
 };
 
+/// Whether that is the step of rigid bodies' case as it is, which is first of all settings.
+bool isOwnStep(const SettingList& to, double steps) {
+  return !to.setup.law.soft() &&
+         costStepUnit(to.setup) / steps == engineStep(to.setup, to.engine, to.can);
+}
+
 void addSteps(SettingList& to) {
   for (const double n : to.steps)
-    to.add("time_step", fmt::format("t_c/{:g}", n), stepFragment(to.setup, to.engine, to.can, n));
+    if (!isOwnStep(to, n))
+      to.add("time_step", stepName(to.setup, n), stepFragment(to.setup, to.engine, to.can, n));
 }
 
 /// Every other integrator at every step; one that the engine lacks is refused once, and one that
@@ -137,15 +152,65 @@ void addPrecision(SettingList& to) {
     to.add("precision", "float", "[run]\nprecision = \"float\"\n");
 }
 
+/// An engine's numbers of iterations, by name, with what it runs with; the first stands for how
+/// well a step is solved.
+std::vector<std::pair<const SettingSpec*, double>> iterationsOf(const SettingList& to) {
+  std::vector<std::pair<const SettingSpec*, double>> found;
+  const Settings said = settingsFor(to.setup, to.engine, to.can);
+  for (const SettingSpec& spec : to.can.settings) {
+    if (spec.role != SettingRole::iterations) continue;
+    const auto own = said.find(spec.name);
+    found.emplace_back(&spec,
+                       std::get<double>(own == said.end() ? spec.defaultValue : own->second));
+  }
+  return found;
+}
+
+/// Whole multiples of a number of iterations, without itself.
+std::vector<double> multiplesOf(double usual, const SettingSpec& spec,
+                                const std::vector<double>& factors) {
+  std::vector<double> values;
+  for (const double factor : factors) {
+    const double value = std::clamp(std::round(factor * usual), spec.least, spec.most);
+    if (value != usual && std::ranges::find(values, value) == values.end()) values.push_back(value);
+  }
+  return values;
+}
+
+/// Values of the case; of rigid bodies also of what is declared as iterations, and these at other
+/// steps, too: whether small steps or many iterations are worth their time is the question.
 void addOwnSettings(SettingList& to) {
-  const auto own = to.setup.cost.settings.find(to.engine);
-  if (own == to.setup.cost.settings.end()) return;
-  for (const auto& [name, values] : own->second)
+  const Cost& cost = to.setup.cost;
+  std::map<std::string, std::vector<double>> own;
+  if (const auto given = cost.settings.find(to.engine); given != cost.settings.end())
+    own = given->second;
+  const auto add = [&](const std::string& name, double value, const std::string& step = "",
+                       const std::string& fragment = "") {
+    const std::string section = fmt::format("[engines.{}]\n", to.engine);
+    const bool inSection = fragment.starts_with(section);
+    const CostSetting& one =
+        to.add(name, fmt::format("{} = {:g}{}{}", name, value, step.empty() ? "" : ", ", step),
+               fmt::format("{}{}{} = {}\n", fragment,
+                           inSection          ? ""
+                           : fragment.empty() ? section
+                                              : "\n" + section,
+                           name, value));
+    settingsFor(one.setup, to.engine, to.can);  // throws for one that it does not have
+  };
+  const auto iterations =
+      to.setup.law.soft() ? std::vector<std::pair<const SettingSpec*, double>>{} : iterationsOf(to);
+  for (const auto& [spec, usual] : iterations)
+    if (!own.contains(spec->name)) own[spec->name] = multiplesOf(usual, *spec, cost.iterations);
+  for (const auto& [name, values] : own)
     for (const double value : values) {
-      const CostSetting& one =
-          to.add(name, fmt::format("{} = {:g}", name, value),
-                 fmt::format("[engines.{}]\n{} = {}\n", to.engine, name, value));
-      settingsFor(one.setup, to.engine, to.can);  // throws for one that it does not have
+      add(name, value);
+      if (iterations.empty() || iterations.front().first->name != name) continue;
+      double most = 1.0;
+      for (const auto& list : {to.steps, cost.iterations})
+        for (const double factor : list) most = std::max(most, factor);
+      for (const double n : to.steps)
+        if (!isOwnStep(to, n) && n * value <= most * iterations.front().second)
+          add(name, value, stepName(to.setup, n), stepFragment(to.setup, to.engine, to.can, n));
     }
 }
 
@@ -171,20 +236,24 @@ const struct Knob {
   std::string_view name;
   std::vector<CostKind> kinds;  ///< of error that it may change
   void (*add)(SettingList&);
+  bool ofSoftLaws = false;
 } knobs[] = {
     {"time_step", {collision, trajectory, averages}, addSteps},
-    {"integrator", {collision, trajectory}, addIntegrators},
+    {"integrator", {collision, trajectory}, addIntegrators, true},
     {"precision", {collision, trajectory, averages}, addPrecision},
     {"settings", {collision, trajectory, averages}, addOwnSettings},
     {"tangential",
      {collision, averages},
-     [](SettingList& to) { addLaw(to, "tangential", to.setup.cost.tangential); }},
+     [](SettingList& to) { addLaw(to, "tangential", to.setup.cost.tangential); },
+     true},
     {"tension",
      {collision, averages},
      [](SettingList& to) {
        addLaw(to, "tension", {"allow", "cut"});
-     }},
-    {"effects", {averages}, addEffects},
+     },
+     true},
+    // Without an effect of its rigid scene a closed form is of another one.
+    {"effects", {averages}, addEffects, true},
 };
 
 }  // namespace
@@ -195,10 +264,11 @@ std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const st
   SettingList list{setup, engine, can,
                    kind == collision    ? cost.collisionSteps
                    : kind == trajectory ? cost.trajectorySteps
-                                        : cost.averageSteps};
+                   : setup.law.soft()   ? cost.averageSteps
+                                        : cost.rigidSteps};
   list.add("time_step", "the case's own", "");
   for (const Knob& knob : knobs)
-    if (std::ranges::find(cost.knobs, knob.name) != cost.knobs.end() &&
+    if (cost.has(knob.name) && (setup.law.soft() || !knob.ofSoftLaws) &&
         std::ranges::find(knob.kinds, kind) != knob.kinds.end())
       knob.add(list);
   return std::move(list.settings);

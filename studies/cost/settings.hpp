@@ -27,15 +27,23 @@ std::vector<CostSetting> costSettings(const Case& setup, CostKind kind, const st
                                       const Capabilities& can);
 
 /// TOML that sets the time step of an engine: an engine with a step of its own does not follow the
-/// case's. @param steps  per contact time t_c
+/// case's. @param steps  in costStepUnit()
 std::string stepFragment(const Case& setup, const std::string& engine, const Capabilities& can,
                          double steps);
 
 /// The case with that step.
 Case atSteps(const Case& setup, const std::string& engine, const Capabilities& can, double steps);
 
-/// t_c of the lightest pair, which steps are counted in [s]. @throws BadInput for a law without one
+/// t_c of the lightest pair [s]. @throws BadInput for a law without one
 double costContactTime(const Case& setup);
+
+/// What steps are counted in [s]: t_c; of rigid bodies, which have none, the case's own step. A
+/// time of the scene, √(h/g) or 1/ω, would be another one in each scene, and the step is what its
+/// user has and asks about.
+double costStepUnit(const Case& setup);
+
+/// "t_c/50"; of rigid bodies "dt/2", "4 dt".
+std::string stepName(const Case& setup, double steps);
 
 /// The step that an engine will take [s].
 double engineStep(const Case& setup, const std::string& engine, const Capabilities& can);

@@ -19,6 +19,7 @@
 #include "studies/cost/impacts.hpp"
 #include "studies/cost/trajectory.hpp"
 #include "studies/lockstep/starts.hpp"
+#include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
@@ -34,6 +35,7 @@ double secondsSince(Clock::time_point start) {
 }  // namespace
 
 double pairLimit(const Case& setup) {
+  if (!setup.law.soft()) return INFINITY;
   const double kn = std::ranges::max(lawsOf(setup), {}, &ContactLaw::kn).kn;
   return 2.0 * std::sqrt(lightestReducedMass(setup) / kn);
 }
@@ -140,6 +142,29 @@ CostPoint timedPoint(const std::string& engine, const CostSetting& setting, Cost
   return point;
 }
 
+namespace {
+
+/// Endpoints with a closed form: nothing else says what is right of bodies whose contacts take no
+/// time, and which the in-house engine has not. @throws BadInput where that leaves nothing
+void keepWhatRigidBodiesHave(Case& setup) {
+  const auto fail = [&](const char* why) {
+    throw BadInput(fmt::format("{}: {}", setup.file.string(), why));
+  };
+  std::vector<CostKind>& kinds = setup.cost.kinds;
+  if (kinds.empty()) return;  // steps alone are timed
+  std::erase_if(kinds, [](CostKind kind) { return kind != CostKind::averages; });
+  if (kinds.empty())
+    fail(
+        "cost.kinds: of rigid bodies there are averages alone: their contacts take no time that "
+        "steps could be counted in, and no path is known to be right; collide scores collisions");
+  if (!hasClosedForms(setup))
+    fail(
+        "cost of rigid bodies needs [[endpoints]] with expected values, as nothing else says what "
+        "is right; compare --reference none has how far engines are from each other");
+}
+
+}  // namespace
+
 CostStudy::CostStudy(const Case& of, const RunCommand& command, RunStore& store)
     : setup(of),
       jobs(command.jobs),
@@ -147,7 +172,7 @@ CostStudy::CostStudy(const Case& of, const RunCommand& command, RunStore& store)
       engines(campaign.engines().size()),
       inHouse(engineRegistry().front()),
       inHouseEngine(inHouse.make()) {
-  costContactTime(setup);  // throws, before anything runs, for a law without one
+  if (!setup.law.soft()) keepWhatRigidBodiesHave(setup);
 }
 
 void CostStudy::ask() {
@@ -161,8 +186,10 @@ void CostStudy::prepare() {
   campaign.askEngines();
   campaign.preparePackings();
   campaign.timeEngines();
-  findStates();
-  findImpacts();
+  if (setup.law.soft()) {
+    findStates();
+    findImpacts();
+  }
   campaign.progress().begin("timing starts and steps", std::vector<double>(engines.size(), 1.0));
   for (std::size_t e = 0; e < engines.size(); ++e) {
     throwIfInterrupted();
@@ -179,7 +206,7 @@ void CostStudy::prepare() {
     campaign.progress().finish(
         e, fmt::format("{}: {:.3g} µs a step", entryOf(e).name, 1e6 * engines[e].scene.step));
   }
-  timeInHouse();
+  if (setup.law.soft()) timeInHouse();
 }
 
 void CostStudy::findStates() {
@@ -257,13 +284,12 @@ std::string CostStudy::nameOf(const PlannedPoint& point) const {
 }
 
 std::string CostStudy::nameOf(const PlannedPoint& point, std::size_t round) const {
-  return fmt::format("{}-{}{}", nameOf(point), point.kind == CostKind::collision ? "r" : "p",
-                     round);
+  return fmt::format("{}-{}{}", nameOf(point), isRepeated(point.kind) ? "r" : "p", round);
 }
 
 CaseKeys CostStudy::keyOf(const PlannedPoint& point, std::size_t round) const {
   return campaign.keyOf(
-      point.engine, point.kind == CostKind::collision ? 0 : static_cast<int>(round),
+      point.engine, isRepeated(point.kind) ? 0 : static_cast<int>(round),
       fmt::format("cost: {} {}", toString(point.kind), settingOf(point).fragment));
 }
 

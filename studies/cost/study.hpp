@@ -121,7 +121,7 @@ struct PlannedPoint {
 ///   ask          of a dry run
 ///   prepare      of a real one
 struct CostStudy {
-  /// @throws BadInput for a law without a contact time
+  /// @throws BadInput for rigid bodies without closed forms
   CostStudy(const Case& setup, const RunCommand& command, RunStore& store);
 
   /// Which settings there are and which packings there would be; computes nothing.
@@ -140,7 +140,10 @@ struct CostStudy {
     return settingsOf(point.engine, point.kind)[point.setting];
   }
   double stepOf(std::size_t engine, const Case& setup) const;  ///< that it will take [s]
-  double packingCount() const { return static_cast<double>(campaign.packings().size()); }
+  /// Whether rounds repeat one start, for its time: else each is a packing.
+  bool isRepeated(CostKind kind) const {
+    return kind == CostKind::collision || (kind == CostKind::averages && hasClosedForms(setup));
+  }
   /// Where paths begin, one for each packing: a cell's packings are sheared already; of others
   /// states along the flow, as nothing may touch at their start.
   const std::vector<Packing>& trajectoryStarts() const {

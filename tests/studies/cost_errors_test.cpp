@@ -350,6 +350,20 @@ TEST(CostAverages, PairedError_SplitsScatterAndBias) {
   EXPECT_NEAR(*narrow->low, 1.87294 / 20.0, 1e-5);
 }
 
+/// 0.3 and 0.2 off 20 in units of 0.1: a run that differs from its repetition counts with the
+/// larger error, and alike ones have no interval.
+TEST(CostAverages, ExactError_IsTheLargestDistanceFromTheClosedForm) {
+  const auto found = exactError({run({20.2}, 0.1), run({19.7}, 0.1)}, "stress_rr", 20.0, 0.1);
+  EXPECT_NEAR(found->error, 3.0, 1e-9);
+  EXPECT_NEAR(*found->low, 2.0, 1e-9);
+  EXPECT_EQ(*found->high, found->error);
+  EXPECT_EQ(*found->statistical, 0.0);
+  const auto alike = exactError({run({20.2}, 0.1), run({20.2}, 0.1)}, "stress_rr", 20.0, 0.1);
+  EXPECT_EQ(*alike->low, *alike->high);
+  EXPECT_FALSE(exactError({run({20.0}, 0.1), CostRun{}}, "stress_rr", 20.0, 0.1));
+  EXPECT_FALSE(exactError({}, "stress_rr", 20.0, 0.1));
+}
+
 TEST(CostAverages, OnePackingNoneOrAFraction_AreSpecialCases) {
   const auto one = pairedError({run({2.0}, 0.2)}, {run({1.0}, 0.1)}, "stress_rr", 0.05);
   EXPECT_NEAR(one->error, 1.0, 1e-12);

@@ -155,6 +155,58 @@ TEST(CostSettings, EnginesOwnSetting_IsSetAndAMisspeltOneRefused) {
   EXPECT_THROW(settingsOf(CostKind::trajectory, wrong), BadInput);
 }
 
+/// Of a rigid engine: ten passes that it declares as iterations, and twenty of something else.
+Capabilities rigidCan() {
+  Capabilities can = grainCan();
+  can.settings = {{"passes", 10.0, "-", "", {}, 3.0, 50.0, true, SettingRole::iterations},
+                  {"points", 20.0, "-", "", {}, 1.0, 50.0, true}};
+  return can;
+}
+
+std::vector<std::string> namesOf(const std::vector<CostSetting>& settings) {
+  std::vector<std::string> names;
+  for (const CostSetting& one : settings) names.push_back(one.setting);
+  return names;
+}
+
+TEST(CostSettings, RigidBodies_HavePartsOfTheCasesStepAndDeclaredIterations) {
+  Case setup = loadCase(CROSSGRAIN_CASES "/convex/slide.toml").front();  // of steps of 1 ms
+  setup.cost.rigidSteps = {0.5, 1, 4};
+  setup.cost.iterations = {0.1, 0.25, 4, 8};  // 1 and 2.5 are 3, 80 is 50
+  const auto settings = settingsOf(CostKind::averages, setup, rigidCan());
+  EXPECT_EQ(namesOf(settings),
+            (std::vector<std::string>{"the case's own", "2 dt", "dt/4", "float", "passes = 3",
+                                      "passes = 3, 2 dt", "passes = 3, dt/4", "passes = 40",
+                                      "passes = 40, 2 dt",  // 16 times as many in all at dt/4
+                                      "passes = 50", "passes = 50, 2 dt"}));
+  const CostSetting& both = find(settings, "passes", "passes = 3, dt/4");
+  EXPECT_DOUBLE_EQ(timeStep(both.setup), 2.5e-4);
+  EXPECT_EQ(std::get<double>(both.setup.engines.at("grain").at("passes")), 3.0);
+  EXPECT_EQ(both.refusal, "");
+  EXPECT_FALSE(pointOf("a", both, CostKind::averages, 2.5e-4).stepsPerContact);
+}
+
+TEST(CostSettings, IterationsOfTheCase_AreThoseThatItGives) {
+  Case setup = loadCase(CROSSGRAIN_CASES "/convex/slide.toml").front();
+  setup.cost.rigidSteps = {1, 2};
+  setup.cost.knobs = {"settings"};
+  setup.cost.settings["grain"] = {{"passes", {5.0}}, {"points", {7.0}}};
+  EXPECT_EQ(namesOf(settingsOf(CostKind::averages, setup, rigidCan())),
+            (std::vector<std::string>{"the case's own", "passes = 5", "passes = 5, dt/2",
+                                      "points = 7"}));
+}
+
+/// An engine with a step of its own gets both in one table of the case file.
+TEST(CostSettings, IterationsAtTheStepOfAnEngine_AreOneFragment) {
+  Case setup = loadCase(CROSSGRAIN_CASES "/convex/slide.toml").front();
+  Capabilities can = rigidCan();
+  can.settings.push_back({"dt", 5e-4, "s", "", {}});
+  const CostSetting one =
+      find(settingsOf(CostKind::averages, setup, can), "passes", "passes = 20, dt/4");
+  EXPECT_EQ(one.fragment, "[engines.grain]\ndt = 0.00025\npasses = 20\n");
+  EXPECT_EQ(one.refusal, "");
+}
+
 TEST(CostSettings, RemovedKey_IsRefusedAsSuch) {
   for (const char* const key : {"omega", "stiffness", "methods", "bound_steps", "perturbation"}) {
     const std::string said = test::refusalOf(
