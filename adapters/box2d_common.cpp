@@ -79,12 +79,18 @@ box2d_granular::Model box2dModel(const Scene& scene, double dt, double lengthUni
   // Box2D's bodies are of floats also where its own motion is not used.
   if (const std::string why = beyondSinglePrecision(scene); !why.empty())
     throw UnsupportedScene(why);
-  if (!scene.shapes.empty()) throw UnsupportedScene("has no convex bodies");
   box2d_granular::Model model;
-  for (std::size_t i = 0; i < scene.disks.size(); ++i)
+  for (std::size_t i = 0; i < scene.disks.size(); ++i) {
     model.disks.push_back({scene.disks.radius[i], scene.disks.mass[i], scene.disks.inertia[i],
                            toVector(scene.disks.position[i]), toVector(scene.disks.velocity[i]),
                            scene.disks.spin[i]});
+    if (!scene.isConvex(i)) continue;
+    const ShapeOf<2>& shape = scene.shapes[static_cast<std::size_t>(scene.disks.shape[i])];
+    for (const Vec2& vertex : shape.vertices)
+      model.disks.back().vertices.push_back(toVector(vertex));
+    model.disks.back().rounding = shape.rounding;
+    model.disks.back().turn = scene.disks.turn[i];
+  }
   for (const WallBody& body : scene.bodies) model.walls.push_back(box2dWall(body));
   model.gravity = toVector(scene.gravity);
   model.rotation = effectsOf(scene).contains(Effect::rotation);
@@ -111,6 +117,7 @@ Snapshot kinematicSnapshot(const box2d_granular::Members& members, double time, 
     snapshot.position.push_back(toVec2(members.position[i]));
     snapshot.velocity.push_back(toVec2(members.velocity[i]));
   }
+  if (!members.turn.empty()) snapshot.turn = members.turn;
   if (spins) snapshot.spin.emplace(members.spin.begin(), members.spin.begin() + members.disks);
   for (std::size_t i = members.disks; i < members.position.size(); ++i)
     snapshot.wallPosition.push_back(toVec2(members.position[i]));

@@ -1,4 +1,5 @@
 #include <box2d/b2_common.h>
+#include <box2d/b2_settings.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -40,6 +41,22 @@ Contacts contactsFrom(std::span<const PairImpulse> impulses, double interval,
   return contacts;
 }
 
+Contacts contactsFrom(const box2d_granular::ImpulseWorld::PairPoints& points, double interval) {
+  Contacts contacts;
+  for (const auto& [pair, sum] : points) {
+    const auto one = sum.contact();
+    contacts.i.push_back(pair.first);
+    contacts.j.push_back(pair.second);
+    contacts.normal.push_back(toVec2(one.normal));
+    contacts.overlap.push_back(sum.depth);
+    contacts.normalForce.push_back(one.pressing / interval);
+    contacts.tangentialForce.push_back(one.along / interval);
+    contacts.rollingTorque.push_back(one.left / interval);
+    contacts.point.push_back(toVec2(one.place));
+  }
+  return contacts;
+}
+
 double friction(const ContactLaw& law) {
   const bool frictionless = law.soft() && law.tangential == TangentialLaw::none;
   return frictionless ? 0.0 : law.mu;
@@ -54,8 +71,10 @@ std::vector<Deviation> deviationsOf(const Scene& scene, const box2d_granular::Mo
       each += fmt::format("{}{}: {:.4f}", each.empty() ? "" : "; ", pair.pair, pair.en);
       if (pair.mu > 0.0) each += fmt::format(", {:.4f}", pair.et0);
     }
-    const char* tangential =
-        pairs.front().mu > 0.0 ? ", and its -psi_f/psi_i at psi_i = 0.5 as e_t0" : "";
+    const char* tangential = !(pairs.front().mu > 0.0) ? ""
+                             : scene.shapes.empty()
+                                 ? ", and its -psi_f/psi_i at psi_i = 0.5 as e_t0"
+                                 : ", and e_t0 = 0";
     deviations.push_back(
         {"normal", pairs.front().en, "-",
          fmt::format("rigid contacts with the soft law's e_n{} ({})", tangential, each)});
@@ -67,6 +86,9 @@ std::vector<Deviation> deviationsOf(const Scene& scene, const box2d_granular::Mo
                         "overlaps up to this are left standing"});
   deviations.push_back({"speed_limit", static_cast<double>(b2_maxTranslation) * unit / model.dt,
                         "m/s", "Box2D slows disks that are faster"});
+  if (model.skin > 0.0)
+    deviations.push_back({"skin", model.skin * static_cast<double>(b2_polygonRadius) * unit, "m",
+                          "polygons reach so far beyond their sides"});
   return deviations;
 }
 
@@ -105,10 +127,13 @@ class Box2dImpulse : public Engine {
          "contacts that begin more slowly get no tangential restitution: the position solver moves "
          "enduring ones apart by up to Box2D's slop, and slop/dt is of this order"},
         {"velocity_iterations", 8.0, "-", "of Box2D's velocity solver", {}, 1.0, 1e6, true},
-        {"position_iterations", 3.0, "-", "of Box2D's position solver", {}, 1.0, 1e6, true}};
+        {"position_iterations", 3.0, "-", "of Box2D's position solver", {}, 1.0, 1e6, true},
+        {"skin", 0.0, "-", "that polygons have around them, of Box2D's own", {}, 0.0, 1.0}};
     for (SettingSpec& spec : can.settings)
       if (spec.whole) spec.role = SettingRole::iterations;
     can.limits = box2dLimits();
+    can.limits.shapes = {ShapeKind::polygon, ShapeKind::capsule};
+    can.limits.mostVertices = b2_maxPolygonVertices;
     return can;
   }
 
@@ -125,8 +150,12 @@ class Box2dImpulse : public Engine {
           "restitutions are the same at every speed");
     if (scene.law.damper != Damper::constant && mattersTo(scene.law, "damper"))
       throw UnsupportedScene("can stand in for a linear law with damper = \"constant\" only");
+    convex_ = !scene.shapes.empty();
+    if (convex_ && scene.law.normal == NormalLaw::rigid && scene.law.et0 != 0.0)
+      throw UnsupportedScene("has no tangential restitution of convex bodies, so it needs et0 = 0");
     const double dt = number("dt") > 0.0 ? number("dt") : scene.dt;
-    const box2d_granular::Model model = box2dModel(scene, dt, number("length_unit"));
+    box2d_granular::Model model = box2dModel(scene, dt, number("length_unit"));
+    model.skin = number("skin");
 
     disks_ = scene.disks;
     law_ = scene.law;
@@ -137,7 +166,7 @@ class Box2dImpulse : public Engine {
             friction(law_), [this](std::int32_t i, std::int32_t j) { return restitution(i, j); },
             number("impact_speed"), passes("velocity_iterations"), passes("position_iterations")});
     rotation_ = model.rotation;
-    spins_ = effectsOf(scene).contains(Effect::friction);
+    spins_ = convex_ || effectsOf(scene).contains(Effect::friction);
     stopwatch_ = {};
 
     EffectiveParameters effective;
@@ -189,9 +218,11 @@ class Box2dImpulse : public Engine {
       snapshot.bodies[b].torque = onWalls[b].angular / interval;
     }
     if (report == ContactReport::instant)
-      snapshot.contacts = contactsFrom(world_->lastImpulses(), interval, members);
+      snapshot.contacts = convex_ ? contactsFrom(world_->lastPoints(), interval)
+                                  : contactsFrom(world_->lastImpulses(), interval, members);
     if (accumulated) {
-      snapshot.contacts = contactsFrom(world_->sums(), interval, members);
+      snapshot.contacts = convex_ ? contactsFrom(world_->pointSums(), interval)
+                                  : contactsFrom(world_->sums(), interval, members);
       world_->clearSums();
     }
     return snapshot;
@@ -223,6 +254,7 @@ class Box2dImpulse : public Engine {
     if (law_.normal == NormalLaw::rigid) return {law_.en, law_.et0};
     const auto [known, isNew] = known_.try_emplace({pair.normal, pair.tangential});
     if (isNew) known->second = box2d_granular::rigidEquivalent(law_, pair);
+    if (convex_) known->second.tangential = 0.0;  // of which the arms of an impact decide
     return known->second;
   }
 
@@ -232,7 +264,8 @@ class Box2dImpulse : public Engine {
   std::map<std::pair<double, double>, box2d_granular::Restitution> known_;
   std::optional<box2d_granular::ImpulseWorld> world_;
   bool rotation_ = false;
-  bool spins_ = false;  ///< whether any force asks for them
+  bool convex_ = false;  ///< whether there are convex bodies
+  bool spins_ = false;   ///< whether any force asks for them
   Stopwatch stopwatch_;
 };
 

@@ -41,6 +41,7 @@ class Box2dPenalty : public Engine {
   }
 
   EffectiveParameters load(const Scene& scene, const Settings& settings) override {
+    if (!scene.shapes.empty()) throw UnsupportedScene("has no convex bodies");
     if (scene.law.normal != NormalLaw::linear && scene.law.normal != NormalLaw::hertz)
       throw UnsupportedScene(fmt::format("has normal = linear | hertz, not \"{}\"",
                                          lawOptionValue(scene.law, "normal")));

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engines/box2d/members.hpp"
 #include "engines/box2d/restitution.hpp"
 #include "engines/box2d/world.hpp"
+#include "engines/cpp/crossgrain_point_sums.hpp"
 
 namespace box2d_granular {
 
@@ -62,6 +66,14 @@ class ImpulseWorld : private b2ContactListener {
   /// Impulses summed since the last clearSums(), a pair's in the frame that turns along with it.
   std::vector<PairImpulse> sums() const;
   std::span<const WallImpulse> wallSums() const { return sumOnWalls_; }
+
+  /// In scenes with convex bodies, instead of lastImpulses() and sums(): by i and j what the points
+  /// of a pair got together [N s].
+  using PairPoints =
+      std::map<std::pair<std::int32_t, std::int32_t>, crossgrain_worker::PointSumsOf<2>>;
+  const PairPoints& lastPoints() const { return lastPoints_; }
+  const PairPoints& pointSums() const { return pointSums_; }
+
   std::uint64_t sumSteps() const { return steps_ - sumsFrom_; }
   void clearSums();
 
@@ -79,16 +91,20 @@ class ImpulseWorld : private b2ContactListener {
   struct Touching {
     b2Contact* contact;
     std::int32_t i, j;
-    Vector normal;  ///< from j to i
-    Vector point;   ///< [m]
+    Vector normal;                                   ///< from j to i
+    int count;                                       ///< of points, 2 at most
+    std::array<Vector, b2_maxManifoldPoints> point;  ///< [m]
+    std::array<double, b2_maxManifoldPoints> depth;  ///< of the overlap there [m]
   };
 
   void BeginContact(b2Contact* contact) override;
   void PreSolve(b2Contact* contact, const b2Manifold* old) override;
+  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
   void actBeforeTheKick(const Touching& touch);
   void setWallsMoving();
   void harvest();
   void addToSum(const PairImpulse& impulse);
+  void addToPoints(const PairImpulse& impulse, const Touching& touch, std::size_t point);
 
   ImpulseOptions options_;
   double dt_;
@@ -101,9 +117,11 @@ class ImpulseWorld : private b2ContactListener {
   std::uint64_t steps_ = 0, sumsFrom_ = 0, contactEvaluations_ = 0, impacts_ = 0;
   std::vector<Touching> touching_;
   std::vector<b2Contact*> turnedBack_;  ///< contacts that hold a tangent speed in this step
+  std::vector<b2Contact*> oneOfTwo_;    ///< of two points as good as one: the first alone acts
   std::vector<PairImpulse> last_;
   std::vector<WallImpulse> lastOnWalls_, sumOnWalls_;
   std::vector<std::vector<PairImpulse>> sums_;  ///< by i, which is always a disk
+  PairPoints lastPoints_, pointSums_;
 };
 
 }  // namespace box2d_granular

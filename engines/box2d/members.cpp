@@ -1,5 +1,7 @@
 #include "engines/box2d/members.hpp"
 
+#include <algorithm>
+
 namespace box2d_granular {
 
 Members::Members(const Model& model) : disks(model.disks.size()) {
@@ -8,7 +10,10 @@ Members::Members(const Model& model) : disks(model.disks.size()) {
     velocity.push_back(disk.velocity);
     spin.push_back(disk.spin);
     radius.push_back(disk.radius);
+    turn.push_back(disk.turn);
   }
+  if (std::ranges::all_of(model.disks, [](const Disk& disk) { return disk.vertices.empty(); }))
+    turn.clear();
   for (std::size_t w = 0; w < model.walls.size(); ++w) {
     const Wall& from = model.walls[w];
     Reference& reference = reference_.emplace_back();

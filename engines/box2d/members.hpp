@@ -27,6 +27,7 @@ struct Members {
   std::vector<Vector> velocity;   ///< likewise [m/s]
   std::vector<double> spin;       ///< likewise [rad/s]
   std::vector<double> radius;     ///< likewise [m]
+  std::vector<double> turn;       ///< of moving disks; empty where all are round [rad]
   std::vector<Plane> plane;       ///< as they stand now
   std::vector<Pose> pose;         ///< of each wall
   std::vector<std::size_t> wall;  ///< of each wall disk and plane, by id − disks

@@ -10,6 +10,7 @@ namespace box2d_granular {
 using crossgrain_worker::turned;
 using crossgrain_worker::Vector;
 
+/// A disk or a convex body, whose radius is that of the circle about its centre that holds it.
 struct Disk {
   double radius = 0.0;   ///< [m]
   double mass = 0.0;     ///< [kg]
@@ -17,6 +18,10 @@ struct Disk {
   Vector position;       ///< [m]
   Vector velocity;       ///< [m/s]
   double spin = 0.0;     ///< counter-clockwise positive [rad/s]
+  // Of convex bodies:
+  std::vector<Vector> vertices = {};  ///< of a polygon, counter-clockwise, or ends of a capsule [m]
+  double rounding = 0.0;              ///< of a capsule [m]
+  double turn = 0.0;                  ///< counter-clockwise positive [rad]
 };
 
 /// The half plane behind `point`; the unit normal points into the free side.
@@ -50,6 +55,7 @@ struct Model {
   bool rotation = true;   ///< whether anything can change a spin
   double dt = 0.0;        ///< time step [s]
   double lengthUnit = 1;  ///< Box2D's unit of length [m]
+  double skin = 0.0;      ///< that polygons have around them, of b2_polygonRadius
 };
 
 }  // namespace box2d_granular

@@ -59,7 +59,7 @@ World::World(const Model& model, double skin)
     nextDisk += wall.diskRadius.size();
     for (const Plane& plane : wall.planes) addPlane(plane, w, wall.moves, nextPlane++);
   }
-  for (std::size_t i = 0; i < model.disks.size(); ++i) addDisk(model.disks[i], model.rotation, i);
+  for (std::size_t i = 0; i < model.disks.size(); ++i) addDisk(model.disks[i], model, i);
   coverPlanes();
 }
 
@@ -73,12 +73,8 @@ void World::addWall(const Wall& wall, std::size_t firstDisk) {
   def.allowSleep = false;
   b2Body& body = *world_.CreateBody(&def);
   walls_.push_back(&body);
-  for (std::size_t k = 0; k < wall.diskRadius.size(); ++k) {
-    b2CircleShape shape;
-    shape.m_p = toUnits(wall.diskPosition[k] - centre);
-    shape.m_radius = static_cast<float>((wall.diskRadius[k] + skin_) / unit_);
-    addFixture(body, shape, firstDisk + k);
-  }
+  for (std::size_t k = 0; k < wall.diskRadius.size(); ++k)
+    addCircle(body, wall.diskPosition[k] - centre, wall.diskRadius[k] + skin_, firstDisk + k);
 }
 
 void World::addPlane(const Plane& plane, std::size_t wall, bool moves, std::size_t id) {
@@ -94,27 +90,64 @@ void World::addPlane(const Plane& plane, std::size_t wall, bool moves, std::size
       {&body, static_cast<b2PolygonShape*>(fixture->GetShape()), wall, plane, plane, half});
 }
 
-void World::addDisk(const Disk& disk, bool rotation, std::size_t id) {
+void World::addDisk(const Disk& disk, const Model& model, std::size_t id) {
   b2BodyDef def;
   def.type = b2_dynamicBody;
   def.position = toUnits(disk.position);
   def.linearVelocity = toUnits(disk.velocity);
+  def.angle = wrapped(disk.turn);
   def.angularVelocity = static_cast<float>(disk.spin);
-  def.fixedRotation = !rotation;
+  def.fixedRotation = !model.rotation;
   def.allowSleep = false;
   b2Body& body = *world_.CreateBody(&def);
   disks_.push_back(&body);
   radius_.push_back(disk.radius + skin_);
 
-  b2CircleShape shape;
-  shape.m_radius = static_cast<float>((disk.radius + skin_) / unit_);
-  addFixture(body, shape, id);
+  if (disk.vertices.empty()) {
+    addCircle(body, {}, disk.radius + skin_, id);
+  } else if (disk.rounding > 0.0) {
+    // A capsule is what its ends and the rectangle between them cover, whose corners stand out
+    // nowhere; Box2D 2.4 has none of its own.
+    const Vector middle = 0.5 * (disk.vertices[1] - disk.vertices[0]);
+    const double length = std::hypot(middle.x, middle.y);
+    const Vector aside = (disk.rounding / length) * turned(middle);
+    for (const Vector& end : disk.vertices) addCircle(body, end, disk.rounding, id);
+    const Vector a = disk.vertices[0], b = disk.vertices[1];
+    addPolygon(body, {a - aside, b - aside, b + aside, a + aside}, 0.0, id);
+  } else {
+    addPolygon(body, disk.vertices, model.skin, id);
+  }
 
   b2MassData data;
   data.mass = static_cast<float>(disk.mass);
   data.center.SetZero();
   data.I = static_cast<float>(disk.inertia / (unit_ * unit_));
   body.SetMassData(&data);
+}
+
+/// Vertices are written as they are: b2PolygonShape::Set() would weld those nearer than half a slop
+/// and turn their order.
+/// @param skin  of b2_polygonRadius
+void World::addPolygon(b2Body& body, const std::vector<Vector>& vertices, double skin,
+                       std::size_t id) {
+  b2PolygonShape shape;
+  shape.m_count = static_cast<int32>(vertices.size());
+  for (int32 k = 0; k < shape.m_count; ++k)
+    shape.m_vertices[k] = toUnits(vertices[static_cast<std::size_t>(k)]);
+  for (int32 k = 0; k < shape.m_count; ++k) {
+    const b2Vec2 along = shape.m_vertices[(k + 1) % shape.m_count] - shape.m_vertices[k];
+    shape.m_normals[k] = b2Cross(along, 1.0f);
+    shape.m_normals[k].Normalize();
+  }
+  shape.m_radius = static_cast<float>(skin) * b2_polygonRadius;
+  addFixture(body, shape, id);
+}
+
+void World::addCircle(b2Body& body, Vector at, double radius, std::size_t id) {
+  b2CircleShape shape;
+  shape.m_p = toUnits(at);
+  shape.m_radius = static_cast<float>(radius / unit_);
+  addFixture(body, shape, id);
 }
 
 b2Fixture* World::addFixture(b2Body& body, const b2Shape& shape, std::size_t id) {

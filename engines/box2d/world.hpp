@@ -10,10 +10,10 @@
 
 namespace box2d_granular {
 
-/// A Box2D world that holds a model: one dynamic body for each disk, with mass and inertia set by
-/// hand, one body for each wall's disks and for each plane. Walls that move are kinematic bodies;
-/// fixed ones are static, which spares Box2D to follow each of their fixtures. Walls never touch
-/// each other.
+/// A Box2D world that holds a model: one dynamic body for each disk or convex body, with mass and
+/// inertia set by hand, one body for each wall's disks and for each plane. Walls that move are
+/// kinematic bodies; fixed ones are static, which spares Box2D to follow each of their fixtures.
+/// Walls never touch each other.
 ///
 /// Planes are infinite: each is one side of a box that stays before the disks that could touch it,
 /// whatever the way that they or a wall go, and is as long as they are far apart.
@@ -60,7 +60,9 @@ class World {
   };
   void addWall(const Wall& wall, std::size_t firstDisk);
   void addPlane(const Plane& plane, std::size_t wall, bool moves, std::size_t id);
-  void addDisk(const Disk& disk, bool rotation, std::size_t id);
+  void addDisk(const Disk& disk, const Model& model, std::size_t id);
+  void addPolygon(b2Body& body, const std::vector<Vector>& vertices, double skin, std::size_t id);
+  void addCircle(b2Body& body, Vector at, double radius, std::size_t id);
   b2Fixture* addFixture(b2Body& body, const b2Shape& shape, std::size_t id);
   void place(PlaneBody& plane);
 

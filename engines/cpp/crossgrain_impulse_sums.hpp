@@ -2,12 +2,11 @@
 
 // Impulses summed over steps, and the mean forces that a snapshot shows of them.
 
-#include <algorithm>
-#include <limits>
 #include <map>
 #include <utility>
 
 #include "crossgrain_impulse_space.hpp"
+#include "crossgrain_point_sums.hpp"
 
 namespace crossgrain_worker {
 
@@ -28,15 +27,9 @@ struct ImpulseSumsOf {
     SpinOf<D> rolling = {};
     VectorOf<D> normal;  ///< of the last
   };
-  /// Of a pair that touches in several points: all that pushes, its moment about the origin, and
-  /// normal and place weighed with what presses.
-  struct Points {
-    double weight = 0.0, depth = -std::numeric_limits<double>::infinity();
-    VectorOf<D> push = {}, normal = {}, place = {};
-    SpinOf<D> moment = {};
-  };
   std::map<std::pair<std::int32_t, std::int32_t>, Impulse> onFirst;
-  std::map<std::pair<std::int32_t, std::int32_t>, Points> points;  ///< instead, of convex bodies
+  /// Instead, of convex bodies.
+  std::map<std::pair<std::int32_t, std::int32_t>, PointSumsOf<D>> points;
   std::vector<VectorOf<D>> onBody;
   std::vector<SpinOf<D>> torqueOnBody;  ///< about the body's centre [N m s]
   long long steps = 0;
@@ -63,16 +56,8 @@ struct ImpulseSumsOf {
 
   void addPoint(const PairImpulseOf<D>& impulse, const WallIds& ids,
                 const std::vector<BodyOf<D>>& bodies) {
-    constexpr double least = 1e-200;  // a point that only rubs has a place, too
-    const double weight = std::max(impulse.pressing, least);
-    const VectorOf<D> push = impulse.onFirst();
-    Points& sum = points[{impulse.i, impulse.j}];
-    sum.weight += weight;
-    sum.depth = std::max(sum.depth, impulse.depth);
-    sum.push = sum.push + push;
-    sum.normal = sum.normal + weight * impulse.normal;
-    sum.place = sum.place + weight * impulse.place;
-    sum.moment += cross(impulse.place, push);
+    points[{impulse.i, impulse.j}].add(impulse.normal, impulse.pressing, impulse.onFirst(),
+                                       impulse.place, impulse.depth);
     loadWall(impulse, ids, bodies);
   }
 
@@ -121,13 +106,11 @@ void addPoints(ArrayFile& arrays, const ImpulseSumsOf<D>& sums, double interval)
   ContactColumnsOf<D> contacts;
   std::vector<double> left, points;
   for (const auto& [pair, sum] : sums.points) {
-    const VectorOf<D> normal = (1.0 / norm(sum.normal)) * sum.normal,
-                      place = (1.0 / sum.weight) * sum.place;
-    const double pressing = dot(sum.push, normal);
-    contacts.add(pair.first, pair.second, normal, sum.depth, pressing / interval,
-                 meanOf(tangentOf(sum.push - pressing * normal, normal), interval));
-    append(left, meanOf(sum.moment - cross(place, sum.push), interval));
-    append(points, place);
+    const auto one = sum.contact();
+    contacts.add(pair.first, pair.second, one.normal, sum.depth, one.pressing / interval,
+                 meanOf(one.along, interval));
+    append(left, meanOf(one.left, interval));
+    append(points, one.place);
   }
   contacts.writeTo(arrays);
   arrays.add("contacts.rolling_torque", left);

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "tests/box2d/scenes.hpp"
 
@@ -165,6 +166,86 @@ TEST(Box2dImpulse, SumsOfALastingContactAreThoseOfEveryStep) {
   EXPECT_NEAR(after.contacts->tangentialForce[0] * perpendicular(n).x(), held, 0.01 * weight);
 }
 
+/// A convex body at rest on a plane, or about to fall on it.
+Scene onePlane(const ShapeOf<2>& shape, double en, double height) {
+  Scene scene;
+  scene.law = rigidLaw(en, 0.0, 0.5);
+  scene.dt = 5e-4;
+  scene.shapes = {shape};
+  const double mass = 0.5;
+  scene.disks = {{shape.reach()},
+                 {mass},
+                 {mass * momentsPerMass(massOf(shape))},
+                 {{0.0, height}},
+                 {Vec2::Zero()},
+                 {0.0},
+                 {0},
+                 {0.0}};
+  scene.bodies = {planeWall(Vec2::Zero(), Vec2::UnitY())};
+  return scene;
+}
+
+const ShapeOf<2> box{ShapeKind::polygon, {{-0.1, -0.05}, {0.1, -0.05}, {0.1, 0.05}, {-0.1, 0.05}}};
+const ShapeOf<2> capsule{ShapeKind::capsule, {{-0.1, 0.0}, {0.1, 0.0}}, 0.05};
+
+/// Box2D leaves overlaps of up to a slop, 0.005 of its unit of length, and pushes polygons out to
+/// where their skins, of two slops, overlap by one.
+TEST(Box2dImpulse, ABoxRestsWithinASlop_AndWithItsSkinASlopAbove) {
+  for (const double skin : {0.0, 1.0}) {
+    const auto engine = makeBox2dImpulse();
+    Scene scene = onePlane(box, 0.0, 0.05);
+    scene.gravity = {0.0, -9.81};
+    const EffectiveParameters effective = engine->load(scene, {{"skin", skin}});
+    const double slop = std::ranges::find(effective.deviations, "slop", &Deviation::name)->value;
+    const auto declared = std::ranges::find(effective.deviations, "skin", &Deviation::name);
+    ASSERT_EQ(declared != effective.deviations.end(), skin > 0.0);
+    if (skin > 0.0) {
+      EXPECT_NEAR(declared->value, 2.0 * slop, 1e-6 * slop);
+    }
+    engine->advance(2.0);
+    engine->snapshot(ContactReport::accumulated);
+    engine->advance(2.5);
+    const Snapshot at = engine->snapshot(ContactReport::accumulated);
+    const double bottom = at.position[0].y() - 0.05;
+    EXPECT_LT(bottom, skin > 0.0 ? 1.1 * slop : 1e-3 * slop);
+    EXPECT_GT(bottom, skin > 0.0 ? 0.9 * slop : -1.1 * slop);
+    EXPECT_NEAR((*at.turn)[0], 0.0, 1e-5);
+    ASSERT_EQ(at.contacts->size(), 1u);
+    EXPECT_NEAR(at.contacts->normalForce[0], 0.5 * 9.81, 1e-3);
+    EXPECT_NEAR(at.contacts->point[0].x(), at.position[0].x(), 1e-3);  // the middle of two corners
+    EXPECT_NEAR(at.contacts->rollingTorque[0], 0.0, 1e-3);
+    EXPECT_NEAR(at.bodies[0].force->y(), -0.5 * 9.81, 1e-3);
+  }
+}
+
+/// Both corners at once, by the solver for two points: one after the other would turn the box.
+TEST(Box2dImpulse, WhatFallsFlatReboundsWithoutTurning) {
+  for (const ShapeOf<2>& shape : {box, capsule}) {
+    const auto engine = makeBox2dImpulse();
+    Scene scene = onePlane(shape, 0.5, 0.05 + 1e-5);
+    scene.disks.velocity[0].y() = -1.0;
+    const Snapshot after = runTo(*engine, scene, 0.01);
+    EXPECT_NEAR(after.velocity[0].y(), 0.5, 1e-5);
+    EXPECT_NEAR((*after.spin)[0], 0.0, 1e-4);
+  }
+}
+
+/// The end of a capsule is round at every turn; its middle rectangle stands out nowhere.
+TEST(Box2dImpulse, ACapsuleMeetsAPlaneWhereItIsRound) {
+  for (const double turn : {0.0, 0.02, 0.5, 1.2, std::numbers::pi / 2.0, -2.5}) {
+    const auto engine = makeBox2dImpulse();
+    const double height = 0.1 * std::abs(std::sin(turn)) + 0.05;
+    Scene scene = onePlane(capsule, 0.0, height + 1e-4);
+    scene.disks.turn[0] = turn;
+    scene.disks.velocity[0].y() = -0.1;
+    engine->load(scene, {});
+    engine->advance(5e-4);
+    EXPECT_EQ(engine->snapshot(ContactReport::instant).contacts->size(), 0u) << turn;
+    engine->advance(2.5e-3);
+    EXPECT_EQ(engine->snapshot(ContactReport::accumulated).contacts->size(), 1u) << turn;
+  }
+}
+
 TEST(Box2dImpulse, RefusesWhatItCannotDo) {
   const auto engine = makeBox2dImpulse();
   Scene scene = onePair(box2dLaw(), approach, 0.5);
@@ -172,6 +253,16 @@ TEST(Box2dImpulse, RefusesWhatItCannotDo) {
   EXPECT_THROW(engine->load(scene, {}), UnsupportedScene);
   EXPECT_THROW(engine->load(onePair(box2dLaw(), approach, 0.5), {{"impct_speed", 0.1}}),
                std::invalid_argument);
+
+  const SceneLimits limits = engine->capabilities().limits;
+  Scene convex = onePlane(box, 0.5, 1.0);
+  EXPECT_NO_THROW(engine->load(convex, {}));
+  convex.law.et0 = 0.3;
+  EXPECT_THROW(engine->load(convex, {}), UnsupportedScene);
+  convex.shapes[0].rounding = 0.01;
+  EXPECT_EQ(beyondLimits(limits, convex, false),
+            std::vector<std::string>{"has polygons with sharp corners, not rounded ones"});
+  EXPECT_THROW(makeBox2dPenalty()->load(onePlane(box, 0.5, 1.0), {}), UnsupportedScene);
 }
 
 }  // namespace
