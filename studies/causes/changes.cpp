@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <utility>
-
 #include "adapters/suitability.hpp"
 #include "cases/materials.hpp"
 #include "law/law_options.hpp"
@@ -21,13 +19,8 @@ void addConstants(std::vector<MirrorChangeOf<D>>& changes, const SceneOf<D>& sce
       add(std::string(constant.name), [value = constant.value](SceneOf<D>& changed, double by) {
         changeLaws(changed, [&](ContactLaw& law) { law.*value *= 1.0 + by; });
       });
-  const std::pair<const char*, double BottomPlate::*> plate[] = {
-      {"plate mu", &BottomPlate::mu},
-      {"plate kb", &BottomPlate::kb},
-      {"plate gb", &BottomPlate::gb},
-      {"plate tau_m", &BottomPlate::tauM}};
   if (scene.bottom)
-    for (const auto& [name, value] : plate)
+    for (const auto& [name, value] : plateConstants)
       if ((*scene.bottom).*value != 0.0)
         add(name, [value = value](SceneOf<D>& changed, double by) {
           (*changed.bottom).*value *= 1.0 + by;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "adapters/engine.hpp"
@@ -26,6 +27,13 @@ struct AppliedChangeOf {
   double by = 0.0;  ///< of a constant
 };
 using AppliedChange = AppliedChangeOf<2>;
+
+/// Constants of the plate under disks, by the names that changes and differences have for them.
+inline constexpr std::pair<const char*, double BottomPlate::*> plateConstants[] = {
+    {"plate mu", &BottomPlate::mu},
+    {"plate kb", &BottomPlate::kb},
+    {"plate gb", &BottomPlate::gb},
+    {"plate tau_m", &BottomPlate::tauM}};
 
 /// Whether a mirror may follow otherwise by another value of an option. More do than matter to the
 /// law: an arm of v_t that is that of f_t can become another one, and the velocity that dashpots

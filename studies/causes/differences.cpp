@@ -176,11 +176,28 @@ std::vector<DifferenceOf<D>> differencesOf(const SceneOf<D>& from, const SceneOf
   if (from.rotation != to.rotation)
     add("rotation", to.rotation ? "blocked" : "free", to.rotation ? "free" : "blocked",
         [on = to.rotation](SceneOf<D>& scene) { scene.rotation = on; });
-  if (from.bottom != to.bottom)
-    add(to.bottom ? "bottom_spin_friction" : "bottom_friction", "there", "missing",
+  const auto present = [](bool is) { return is ? "there" : "missing"; };
+  if (from.bottom.has_value() != to.bottom.has_value())
+    add("bottom_friction", present(from.bottom.has_value()), present(to.bottom.has_value()),
         [plate = to.bottom](SceneOf<D>& scene) { scene.bottom = plate; });
+  if (from.bottom && to.bottom) {
+    const BottomPlate &was = *from.bottom, &is = *to.bottom;
+    if (was.spin != is.spin)
+      add("bottom_spin_friction", present(was.spin), present(is.spin),
+          [on = is.spin](SceneOf<D>& scene) { scene.bottom->spin = on; });
+    const auto addConstant = [&](const char* name, double BottomPlate::*value) {
+      if (differ(was.*value, is.*value))
+        found.push_back(
+            {wordsOf(name, was.*value, is.*value), [value, to = is.*value](SceneOf<D>& scene) {
+               (*scene.bottom).*value = to;
+             }});
+    };
+    for (const auto& [name, value] : plateConstants) addConstant(name, value);
+    addConstant("plate gravity", &BottomPlate::gravity);
+  }
   if (from.gravity.isZero() != to.gravity.isZero())
-    add("gravity", "there", "missing", [](SceneOf<D>& scene) { scene.gravity.setZero(); });
+    add("gravity", present(!from.gravity.isZero()), present(!to.gravity.isZero()),
+        [g = to.gravity](SceneOf<D>& scene) { scene.gravity = g; });
   if (from.materials.has_value() && !to.materials)
     add("pair_materials", "there", "missing", [](SceneOf<D>& scene) { scene.materials.reset(); });
   if (differ(from.dt, to.dt)) {

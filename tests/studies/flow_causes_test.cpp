@@ -201,6 +201,28 @@ TEST(SceneAsRun, HasWhatTheEngineHas) {
   EXPECT_EQ(found[1].words.name, "rotation");
 }
 
+TEST(Differences, PlatesUnderDisks_DifferInWhatIsOtherwise) {
+  Scene from;
+  from.bottom = BottomPlate{0.4, 100.0, 0.5, 0.0};
+  Scene to = from;
+  to.bottom->mu = 0.5;
+  to.bottom->spin = false;
+  const auto names = [&] {
+    std::vector<CauseName> words;
+    for (const auto& one : differencesOf<2>(from, to)) words.push_back(one.words);
+    return words;
+  };
+  EXPECT_EQ(names(), (std::vector<CauseName>{{"bottom_spin_friction", "there", "missing"},
+                                             {"plate mu", "0.4", "0.5"}}));
+  Scene taken = from;
+  for (const auto& one : differencesOf<2>(from, to)) one.take(taken);
+  EXPECT_EQ(taken.bottom, to.bottom);
+  to.bottom.reset();
+  EXPECT_EQ(names(), (std::vector<CauseName>{{"bottom_friction", "there", "missing"}}));
+  std::swap(from, to);
+  EXPECT_EQ(names(), (std::vector<CauseName>{{"bottom_friction", "missing", "there"}}));
+}
+
 TEST(SceneAsRun, RigidContacts_HaveMeansOverPairsAndTheirStep) {
   const Case setup = shortCell({"run.may_differ=[\"normal\"]"});
   const double dt = timeStep(setup);
