@@ -80,7 +80,8 @@ std::span<const LawOption> lawOptions() {
              "what a Hertz contact remembers: ξ, or the force, which grows by −k_t v_t dt",
              &LawConventions::history, {"displacement", "force"}),
       option("damping_velocity",
-             "in the dashpots: v(t − dt/2), v(t − dt/2) + a dt/2, or the one that the force makes",
+             "that dashpots see, and by which springs stretch and friction turns: v(t − dt/2), v(t − "
+             "dt/2) + a dt/2, or the one that the force makes",
              &LawConventions::dampingVelocity, {"lagged", "predicted", "implicit"}),
       option("integrator", "the scheme of the in-house engine", &LawConventions::integrator,
              {"position_verlet", "velocity_verlet", "semi_implicit_euler"}),

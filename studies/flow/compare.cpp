@@ -162,6 +162,11 @@ void addCauses(CompareResults& results, Campaign& campaign, const Case& setup,
       if (row.verdict == Equivalence::differs && row.term) undeclared[row.engine] = *row.term;
   results.causes = causesOfPairs(campaign, setup, command, results.endpoints, until, undeclared,
                                  own.causesOf.value_or(""));
+  if (results.causes.empty() && (own.causes || own.causesOf))
+    results.notes.emplace_back(
+        campaign.isNeutral()
+            ? "No causes were measured: no engine shows a difference from the median of the others."
+            : "No causes were measured: no endpoint shows a difference between two engines.");
   results.elapsed = campaign.elapsed();
 }
 
