@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <numbers>
 
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
@@ -183,8 +184,10 @@ TEST(ConvexCollisions, NewtonsAndPoissonsEngine_BothPassWhereTheyAgree) {
   EXPECT_EQ(other.score.verdict, Verdict::pass);
   int judged = 0, apart = 0;
   for (std::size_t k = 0; k < one.points.size(); ++k) {
-    const bool same = std::abs(*one.points.at(QuantityId::psiF, k) -
-                               *other.points.at(QuantityId::psiF, k)) < 1e-9;
+    const auto off = [&](QuantityId id) {
+      return std::abs(*one.points.at(id, k) - *other.points.at(id, k));
+    };
+    const bool same = std::max(off(QuantityId::psiF), off(QuantityId::en)) < 1e-9;
     if (one.points.status(k) == "parted") {
       ++judged;
       EXPECT_TRUE(same) << k;
@@ -193,7 +196,7 @@ TEST(ConvexCollisions, NewtonsAndPoissonsEngine_BothPassWhereTheyAgree) {
       apart += !same;
     }
   }
-  EXPECT_GT(judged, 20);
+  EXPECT_GE(judged, 20);
   EXPECT_GT(apart, 3);
   EXPECT_FALSE(one.causes || one.declared);
 }
@@ -206,24 +209,21 @@ TEST(ConvexCollisions, ImpulseAtTheCentre_Fails) {
   EXPECT_EQ(curve.score.of[QuantityId::energyGained]->held, true);
 }
 
-/// Every start of this sweep sticks in the end with e > 0: nothing but a gain of energy is judged.
+/// Where an elastic impact stops its slip, Newton's restitution adds energy (Kane and Levinson
+/// 1985) and Poisson's does not.
 TEST(ConvexCollisions, HypothesesDiffer_OnlyAGainOfEnergyIsJudged) {
-  const Case setup = variantOf("convex-box", "oblique",
-                               {"law.mu=2.0", "collision.psi={from = 0.2, to = 0.6, count = 5}"});
-  const auto starts = collisionStarts(setup);
-  const OracleCurve oracle = oracleCurve(setup, starts);
-  for (const ConvexOutcomes& outcomes : oracle.convex) {
+  Case setup = variantOf("convex-box", "orientation-elastic");
+  collisionIn(setup).orientation = {std::numbers::pi / 18.0, std::numbers::pi / 12.0};
+  for (const ConvexOutcomes& outcomes : oracleCurve(setup, collisionStarts(setup)).convex) {
     EXPECT_FALSE(outcomes.judged);
     EXPECT_EQ(outcomes.kind, "slip-stick");
   }
-  ImpactEngine sound(poissons), gains(newtons, [](ConvexImpactStart<2>&start) {
-    start.body[0].spin += 3.0;  // from nowhere
-  });
-  const CollisionCurve passes = sweptBy(setup, sound), fails = sweptBy(setup, gains);
-  EXPECT_EQ(passes.score.verdict, Verdict::pass);
-  EXPECT_FALSE(passes.score.of[QuantityId::psiF]);
-  EXPECT_EQ(fails.score.verdict, Verdict::fail);
-  EXPECT_GT(fails.score.of[QuantityId::energyGained]->max, 0.01);
+  ImpactEngine newton(newtons), poisson(poissons);
+  const CollisionCurve gains = sweptBy(setup, newton), sound = sweptBy(setup, poisson);
+  EXPECT_EQ(sound.score.verdict, Verdict::pass);
+  EXPECT_FALSE(sound.score.of[QuantityId::psiF]);
+  EXPECT_EQ(gains.score.verdict, Verdict::fail);
+  EXPECT_NEAR(gains.score.of[QuantityId::energyGained]->max, 0.08, 0.01);
 }
 
 TEST(ConvexCollisions, Capsule_OnAnEngineWithoutIt_IsRefusedInOneLine) {
