@@ -250,7 +250,7 @@ ContactsOf<D> readContacts(const SnapshotDatasets& in, const std::string& path,
     contacts.rollingTorque = in.spins<D>(path + "/rolling_torque", count);
   if (in.holds(path + "/dissipation"))
     contacts.dissipation = in.numbers(path + "/dissipation", count);
-  if (!scene.shapes.empty()) contacts.point = in.vectors<D>(path + "/point", count);
+  if (!scene.shapes.empty() && count > 0) contacts.point = in.vectors<D>(path + "/point", count);
   return contacts;
 }
 

@@ -146,6 +146,10 @@ class Convex(SystemTest):
             self.assert_one_error(self.run_program(*words), BAD_INPUT, why)
 
     @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
+    def test_so_are_those_of_a_body_that_touches_nothing_at_times(self):
+        self.assert_file_is_the_run(CASES / "convex/tip.toml")
+
+    @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
     def test_boxes_in_space_are_those_of_the_file_and_of_ondem(self):
         case, words = CASES / "convex/spin-on-the-spot.toml", ["--out", self.folder / "box", "--quiet"]
         file = self.assert_file_is_the_run(case)
