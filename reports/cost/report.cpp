@@ -43,12 +43,13 @@ std::string targetText(double target) {
 /// An error as the results have it: of rigid bodies "0.32 margins", else a percentage.
 std::string amountText(const CostResults& results, std::optional<double> error) {
   if (!results.inMargins || !error) return percentText(error);
-  return readable(error) + (*error == 1.0 ? " margin" : " margins");
+  return readable(error) + " margins";
 }
 
 /// Likewise an accuracy.
 std::string wantText(const CostResults& results, double target) {
-  return results.inMargins ? amountText(results, target) : targetText(target);
+  if (!results.inMargins) return targetText(target);
+  return fmt::format("{:g} {}", target, target == 1.0 ? "margin" : "margins");
 }
 
 /// "--budget 48h", rounded up.
@@ -164,7 +165,9 @@ std::string asToml(const Advice& one, const CostResults& results) {
     text += reached                               ? " by "
             : one.verdict == Verdict::notMeasured ? " far enough; the best so far is "
                                                   : "; the best is ";
-    text += speaksForItself(one.knob) ? one.setting : one.knob + " " + one.setting;
+    text += speaksForItself(one.knob) || one.setting.starts_with(one.knob)
+                ? one.setting
+                : one.knob + " " + one.setting;
     if (const auto time = one.time())
       text += fmt::format(
           ", {:.3g} s of {} per {}", *time, one.cpuSeconds ? "processor time" : "wall time",

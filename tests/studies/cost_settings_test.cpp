@@ -158,6 +158,7 @@ TEST(CostSettings, EnginesOwnSetting_IsSetAndAMisspeltOneRefused) {
 /// Of a rigid engine: ten passes that it declares as iterations, and twenty of something else.
 Capabilities rigidCan() {
   Capabilities can = grainCan();
+  can.limits.shapes = {ShapeKind::polygon};
   can.settings = {{"passes", 10.0, "-", "", {}, 3.0, 50.0, true, SettingRole::iterations},
                   {"points", 20.0, "-", "", {}, 1.0, 50.0, true}};
   return can;
