@@ -39,28 +39,28 @@ FAULTS = {
 
 # Hard cases: an engine that is right, a fault that makes it unstable there, and settings of both.
 HARD = {
-    "convex-arch": ("chipmunk", "corner_missed"),
+    "convex-arch": ("chipmunk", "creeps"),
     "convex-belt/starts": ("chipmunk", "corner_missed"),
     "convex-belt/swings": ("chipmunk", "corner_missed"),
     "convex-belt/walks": ("chipmunk", "no_friction"),
-    "convex-card-house/pair": ("chipmunk", "no_friction"),
+    "convex-card-house/pair": ("chipmunk", "creeps"),
     "convex-dominoes/falls": ("chipmunk", "no_torque"),
     "convex-dominoes/no-earlier": ("chipmunk", "much_gravity"),
-    "convex-dominoes/energy": ("chipmunk", "faster"),
+    "convex-dominoes/energy": ("chipmunk", "much_gravity"),
     "convex-drum/overlap": ("bullet", "small_shapes"),
     "convex-drum/energy": ("chipmunk", "faster"),
-    "convex-far-away": ("chipmunk", "corner_missed"),
+    "convex-far-away": ("chipmunk", "creeps"),
     "convex-fast/0.4": ("chipmunk", "small_shapes"),
     "convex-flat-impact": ("chipmunk", "corner_missed"),
     "convex-gas/gain": ("chipmunk", "faster"),
     "convex-painleve": ("chipmunk", "much_gravity"),
     "convex-plank/lean": ("chipmunk", "corner_missed"),
-    "convex-pressed/2": ("chipmunk", "no_friction"),
-    "convex-pyramid": ("chipmunk", "corner_missed"),
+    "convex-pressed/2": ("chipmunk", "creeps"),
+    "convex-pyramid": ("chipmunk", "creeps"),
     "convex-rotation/energy": ("bullet", "spin_of_the_body", "run.dt=2e-4"),
     "convex-size-ratio/overlap": ("chipmunk", "small_shapes"),
-    "convex-space-stack/equal": ("ode", "corner_missed", "engines.ode.iterations=0", "engines.faulty.iterations=0"),
-    "convex-stack/equal": ("chipmunk", "corner_missed"),
+    "convex-space-stack/equal": ("ode", "creeps", "engines.ode.iterations=0", "engines.faulty.iterations=0"),
+    "convex-stack/equal": ("chipmunk", "creeps"),
 }
 
 
@@ -198,7 +198,9 @@ class Convex(SystemTest):
                 words = [word for setting in settings for word in ("--set", setting)]
                 done = self.run_program("stability", file, "--engines", f"{right},{engine}", "-k", case, "--out", out, "--quiet", *words)
                 self.assert_status(done, FELL_SHORT)
-                verdicts = {row["engine"]: row["verdict"] for row in self.rows("stability.csv", out)}
+                rows = self.rows("stability.csv", out)
+                self.assertNotIn("failed: faulty", "".join(row["reason"] for row in rows))  # by what it measures, not by an end
+                verdicts = {row["engine"]: row["verdict"] for row in rows}
                 self.assertEqual({right: "stable", "faulty": "unstable"}, verdicts)
 
     def test_every_hard_case_is_shown_to_fail(self):

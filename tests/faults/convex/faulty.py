@@ -136,9 +136,16 @@ def faster(snapshot, arrays):
     arrays['velocity'] *= 1 + snapshot['velocity_time']
 
 
+def creeps(snapshot, arrays):
+    """All bodies are shown to creep along x, by 10 mm/s."""
+    in_space = len(arrays['turn']) == 4 * len(arrays['velocity']) // 3
+    for name in arrays.keys() & {'position', 'contacts.point'}:
+        arrays[name][0::3 if in_space else 2] += 0.01 * snapshot['position_time']
+
+
 OF_SCENES = [inertia_of_disk, moments_in_another_order, no_torque, corner_missed, turned_the_other_way, no_restitution, less_friction,
              no_friction, much_gravity, small_shapes]
-OF_SNAPSHOTS = [not_normalised, one_point, spin_of_the_body, half_the_load, faster]
+OF_SNAPSHOTS = [not_normalised, one_point, spin_of_the_body, half_the_load, faster, creeps]
 FAULTS = {fault.__name__: fault for fault in OF_SCENES + OF_SNAPSHOTS}
 
 
