@@ -199,7 +199,8 @@ class Convex(SystemTest):
                 done = self.run_program("stability", file, "--engines", f"{right},{engine}", "-k", case, "--out", out, "--quiet", *words)
                 self.assert_status(done, FELL_SHORT)
                 rows = self.rows("stability.csv", out)
-                self.assertNotIn("failed: faulty", "".join(row["reason"] for row in rows))  # by what it measures, not by an end
+                # A fault may be found by the audit of snapshots before the measure sees it; an engine that does not start shows nothing.
+                self.assertNotIn("during", "".join(row["reason"] for row in rows))
                 verdicts = {row["engine"]: row["verdict"] for row in rows}
                 self.assertEqual({right: "stable", "faulty": "unstable"}, verdicts)
 
