@@ -278,6 +278,9 @@ const Section<Stability>& stabilityKeys() {
            "snapshots of the run, evenly spread"),
        key("settle", &Stability::settle, Range{.low = 0.0, .high = 1.0, .highOpen = true},
            "share of the run before rest is asked for"),
+       key("stands", &Stability::stands, any,
+           "all stands from the start: where a body moves by more than half a diameter before "
+           "`settle`, rest is asked for from the start"),
        key("quick", &Stability::quick, any, "part of `--quick`"),
        key("long", &Stability::longRun, any, "only under `--long`")});
   return section;

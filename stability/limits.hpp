@@ -13,6 +13,7 @@ struct Stability {
   std::string why;        ///< of the limits
   int samples = 200;      ///< of the run, evenly spread
   double settle = 0.0;    ///< fraction of the run before measures of rest begin, [0, 1)
+  bool stands = false;    ///< whether nothing is to move before that either
   bool quick = false;     ///< part of a quick suite
   bool longRun = false;   ///< only on request
 };

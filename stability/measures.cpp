@@ -217,12 +217,26 @@ double restFrom(const RecordingOf<D>& run) {
   return run.settle * endOf(run);
 }
 
-/// The first snapshot from which on the scene should be at rest.
+template <int D>
+double farthest(const SceneOf<D>& scene, const SnapshotOf<D>& from, const SnapshotOf<D>& to) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < scene.disks.size(); ++i)
+    largest = std::max(largest, apartIn<D>(scene, to.position[i] - from.position[i]).norm());
+  return largest / smallestDiameter(scene);
+}
+
+/// The first snapshot from which on the scene should be at rest. What stands and yet moves by more
+/// than contacts settle has fallen: its rest afterwards is not the one that is asked for.
 template <int D>
 const SnapshotOf<D>& restingStart(const RecordingOf<D>& run) {
+  constexpr double mostSettling = 0.5;  // [diameters]
   const double from = restFrom(run) * (1.0 - 1e-9);
-  return *std::ranges::find_if(run.snapshots,
-                               [&](const SnapshotOf<D>& now) { return now.positionTime >= from; });
+  const SnapshotOf<D>& first = run.snapshots.front();
+  for (const SnapshotOf<D>& now : run.snapshots) {
+    if (run.stands && farthest(run.scene, first, now) > mostSettling) return first;
+    if (now.positionTime >= from) return now;
+  }
+  return run.snapshots.back();
 }
 
 template <int D>
@@ -243,14 +257,6 @@ Curve kineticAtRest(const RecordingOf<D>& run) {
     const double kinetic = energyOf(run, now).kinetic;
     return atRest(run, now) && kinetic > 0.0 ? kinetic / scale : 0.0;
   });
-}
-
-template <int D>
-double farthest(const SceneOf<D>& scene, const SnapshotOf<D>& from, const SnapshotOf<D>& to) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < scene.disks.size(); ++i)
-    largest = std::max(largest, apartIn<D>(scene, to.position[i] - from.position[i]).norm());
-  return largest / smallestDiameter(scene);
 }
 
 /// Farthest turn of a convex body since it should be at rest.

@@ -24,6 +24,7 @@ struct RecordingOf {
   std::vector<CollisionStart> collisions = {};
   /// Of the contacts, as the engine says that it runs them (lawAsRun()).
   ContactLaw law = {};
+  bool stands = false;  ///< all should be at rest from the start, but for how contacts settle
 };
 using Recording = RecordingOf<2>;
 using SpaceRecording = RecordingOf<3>;

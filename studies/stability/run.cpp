@@ -88,7 +88,8 @@ RecordingOf<D> record(Engine& engine, const EngineEntry& entry, const HardSceneO
                      setup.stability->settle,
                      placementOf(setup),
                      startsOf(setup, hard.scene),
-                     lawAsRun(engine.capabilities(), hard.scene.law)};
+                     lawAsRun(engine.capabilities(), hard.scene.law),
+                     setup.stability->stands};
   try {
     run.effective = loadScene(engine, entry, setup, hard.scene);
     run.snapshots.push_back(snapshotOf<D>(engine, ContactReport::none));

@@ -201,6 +201,19 @@ TEST(StabilityMeasures, RestBeginsWhereTheCaseSays) {
   EXPECT_EQ(at.last("time_to_rest"), 4.0);
 }
 
+// 0.5 m of a diameter of 2 m is how contacts settle; what falls and then rests has not stood.
+TEST(StabilityMeasures, WhatStandsAndFallsBeforeRestIsAskedFor_DoesNotStand) {
+  for (const double by : {0.5, 6.0}) {
+    Series at;
+    at.run.settle = 0.5;
+    at.run.stands = true;
+    at.look(0.0, {0, 0}, {10, 0});
+    at.look(1.0, {0, 0}, {10, by});
+    at.look(2.0, {0, 0}, {10, by});
+    EXPECT_NEAR(at.last("creep"), by < 1.0 ? 0.0 : 1.5, 1e-12);  // 6 m = 3 d in 2 s
+  }
+}
+
 // A snapshot compared with itself alone gives no figure.
 TEST(StabilityMeasures, RestOfOneSnapshot_HasNoFigure) {
   Series at;
