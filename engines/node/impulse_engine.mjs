@@ -31,7 +31,8 @@ const mean = (sum, interval) => (Array.isArray(sum) ? sum.map((x) => x / interva
 
 export class ImpulseEngine {
   /// @param about  {name, version, integrator, dt: its usual step [s], settings; dimensions: [2] where absent; contacts: false
-  ///                where its contacts cannot be read; shapes, mostVertices, rounded: of convex bodies, if it has them}
+  ///                where its contacts cannot be read; ofNow: true where they are forces at the places shown, which impulses() has as
+  ///                those of a step; shapes, mostVertices, rounded: of convex bodies, if it has them}
   constructor(about, World) {
     this.about = about;
     this.showsContacts = about.contacts ?? true;
@@ -203,8 +204,9 @@ export class ImpulseEngine {
     };
     if (this.friction || this.convex) arrays.spin = ['f64', disks.flatMap((disk) => disk.spin)];
     if (this.convex) arrays.turn = ['f64', disks.flatMap((disk) => disk.turn)];
-    const steps = accumulated ? this.summed : Math.min(this.showsContacts ? 1 : 0, this.steps), interval = steps * this.dt;
-    const snapshot = {position_time: t, velocity_time: t, contact_time: t, contact_interval: interval};
+    const {ofNow} = this.about;
+    const steps = accumulated ? this.summed : ofNow ? 1 : Math.min(this.showsContacts ? 1 : 0, this.steps), interval = steps * this.dt;
+    const snapshot = {position_time: t, velocity_time: t, contact_time: t, contact_interval: ofNow ? 0 : interval};
     const onBodies = accumulated ? this.onBodies : this.lastOnBodies;
     snapshot.bodies = states.map(({centre, velocity, angle, spin}, b) => ({
       centre, velocity, angle, angular_velocity: spin,

@@ -54,6 +54,7 @@ SceneOf<D> aboveAPlane(const CheckContext& c, const ShapeOf<D>& shape, double e,
   law.en = e;
   law.mu = mu;
   scene.law = followed(c.can, law);
+  if (scene.law.soft()) c.skip("has no rigid contacts, which these closed forms are of");
   scene.dt = 5e-4;
   scene.shapes = {shape};
   scene.bodies.resize(1);

@@ -14,8 +14,8 @@ import crossgrain  # noqa: E402
 
 # By case of cases/convex the engines that agree with it. What others make of it is in engines/NAME/README.md.
 AGREE = {
-    "tip": ("box2d-v3", "bullet", "havok", "jolt", "ode", "physx", "rapier"),  # moments of inertia, a corner that holds
-    "impact-sticks": ("bullet", "chipmunk", "jolt", "physx"),  # restitution and friction of a corner
+    "tip": ("box2d-impulse", "box2d-v3", "bullet", "havok", "jolt", "ode", "physx", "rapier"),  # moments of inertia, a corner that holds
+    "impact-sticks": ("box2d-impulse", "bullet", "chipmunk", "jolt", "physx"),  # restitution and friction of a corner
     "spin-on-the-spot": ("jolt", "rapier3d"),  # friction's torque in space
 }
 

@@ -892,6 +892,33 @@ class Mujoco(BuiltEngine, Refuses, Peer):
         self.passes("ContactForcesAreThoseThatAct", "WallLoadsAreThoseOfTheirContacts", "LoadingStartsAfresh", "Head")
 
 
+@unittest.skipUnless({"mujoco", "mujoco3"} <= set(INSTALLED), "mujoco, node, or what engines/node needs, is not installed")
+class Mujoco3(Refuses, Peer):
+    engine = "mujoco3"
+    refused = Mujoco.refused[::2] if "mujoco" in INSTALLED else ()  # its matrices are not dense
+
+    def test_collisions_are_those_of_the_older_version_to_rounding(self):
+        kept = self.folder / "mujoco.baseline"
+        self.held("baseline", COLLISION, "--engines", "mujoco", "--quick", "--quiet", "--out", kept)
+        done = self.run_program("diff", kept, "--engines", "mujoco3", "--quiet")
+        self.assert_status(done, HELD)
+        self.assertIn("mujoco3: same to rounding", done.stdout)
+
+    def test_boxes_on_boxes_are_not(self):
+        """Where two boxes touch, what one of them reaches over the other is no longer the same points."""
+        law = settings(law__normal="linear", law__kn=1e5, law__gn=600.0, law__tangential="viscous", law__gt=600.0, law__tension="cut")
+        self.held(
+            "compare", CASES / "convex/overhang-stands.toml", "--engines", "mujoco,mujoco3", "--out", self.out, "--quiet", "--no-causes",
+            *law, "--set=run.dt=1e-4",
+        )  # fmt: skip
+        tops = {row["b"]: float(row["difference"]) for row in self.rows("endpoints.csv") if row["kind"] == "closed_form"}
+        self.assertGreater(abs(tops["mujoco"] - tops["mujoco3"]), 1e-5)
+
+    def test_passes_its_checks(self):
+        """Walls that move for a second, thousands of disks, and that forces shown are those that act."""
+        self.passes("ContactForcesAreThoseThatAct", "OscillatingWallPushes", "ManyAreAsFew", "LoadingStartsAfresh")
+
+
 # Engines of rigid contacts without a class of their own.
 NAMED = {name for peer in Peer.__subclasses__() for name in (getattr(peer, "engine", None), *getattr(peer, "others", ()))}
 for name in sorted({file.stem for file in HOME.glob("engines/*/*.toml")} & set(INSTALLED) - NAMED):
