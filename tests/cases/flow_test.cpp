@@ -105,7 +105,7 @@ TEST(Flow, TakesFilesInTurnWithVelocitiesOfEachPacking) {
   Disks two = one;
   two.position = {{0.0, 4.0}};
   assemblyIn<2>(setup).disks.clear();
-  assemblyIn<2>(setup).starts = {{"a.csv", "b.csv"}, {one, two}, 0.0};
+  assemblyIn<2>(setup).starts = {{"a.csv", "b.csv"}, {one, two}, {}, 0.0};
   setup.preparation.packings = 5;
   EXPECT_TRUE(packingsAreFiles(setup));
   EXPECT_EQ(flowPackings(setup), 2);

@@ -19,6 +19,7 @@ import sys
 TARGETS = {
     "engine_examples": None,
     "all_declared_laws": None,
+    "all_planted_causes": None,
     "one_definition": None,
     "planted_checks": None,
     "all_of_peers": None,

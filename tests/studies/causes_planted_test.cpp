@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "adapters/grain.hpp"
 #include "cases/loader.hpp"
@@ -202,9 +203,12 @@ TEST_P(CausesPlanted, AreNamed) {
   for (const MirrorChange& change : all)
     for (const bool declared : {true, false})
       countSingle(sweep, change, declared, single[declared ? 0 : 1]);
+  const std::size_t every = std::getenv("CROSSGRAIN_AT_NIGHT") ? 1 : 5;
+  std::size_t pair = 0;
   for (std::size_t b = 1; b < all.size(); ++b)
     for (std::size_t a = 0; a < b; ++a)
-      if (!all[a].isConstant && !all[b].isConstant && optionOf(all[a]) != optionOf(all[b]))
+      if (!all[a].isConstant && !all[b].isConstant && optionOf(all[a]) != optionOf(all[b]) &&
+          pair++ % every == 0)
         countPair(sweep, all[a], all[b], pairs[0], pairs[1]);
   const char* const words[] = {"declared", "in truth alone"};
   for (int k = 0; k < 2; ++k)
