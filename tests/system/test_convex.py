@@ -158,7 +158,7 @@ class Convex(SystemTest):
             points, last = written["VTKHDF/Points/PointData"], snapshots[0]
             box = snapshots.shapes[0]
             self.assertEqual("box", box.kind)
-            self.assertEqual([2.0 * box.vertices.max(axis=0)], points["dimensions"][:].tolist())
+            self.assertEqual([(2.0 * box.vertices.max(axis=0)).tolist()], points["dimensions"][:].tolist())
             self.assertEqual(last.turn.tolist(), points["orientation"][:].tolist())
             self.assertEqual(snapshots.moments[0].tolist(), points["inertia"][0][::4].tolist())
             self.assertEqual([2], list(points["shape_type"]))
