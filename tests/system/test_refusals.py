@@ -119,7 +119,7 @@ VALUES = {
     f"compare {CELL} {RUN} --set=run.dt=1": "run.dt = 1 s is beyond 0.000572 s",
     f"cost {CASES / 'cost/quick.toml'} {RUN} --set=cost.omega=[2]": "is a key no more",
     f"cost {CASES / 'convex/heap.toml'} {RUN}": "cost of rigid bodies needs [[endpoints]] with expected values",
-    f"cost {CASES / 'convex/slide.toml'} {RUN} --set=cost.kinds=[\"collision\"]": "cost.kinds: of rigid bodies there are averages alone",
+    f"cost {CASES / 'convex/slide.toml'} {RUN} '--set=cost.kinds=[\"collision\"]'": "cost.kinds: of rigid bodies there are averages alone",
     f"lockstep {CELL} {RUN} --starts=2.5": "--starts",
     f"record {PAIR} --engines grain --out r.rec --time=-1": "must be > 0",
     f"record {PAIR} --engines grain --out r.rec --looks=0": "from 1 to",
