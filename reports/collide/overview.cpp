@@ -325,8 +325,8 @@ std::string collideNextStep(const CollideResults& results) {
   const SweepCount count = countOf(results);
   if (count.failed > 0) return "Next: see why sweeps failed, in the table of scores.";
   if (count.beyondLimits > 0)
-    return "Next: see whether the failures shrink with the time step, or of rigid contacts with "
-           "more iterations; if not, they are a fault or another law.";
+    return "Next: see whether the failures shrink with the time step; if not, they are a fault or "
+           "another law.";
   if (count.modelDifference == 0) {
     const std::vector<EngineCount> tallies = countsOf(results);
     if (std::ranges::any_of(tallies, [](const EngineCount& one) { return one.refused > 0; }))

@@ -462,9 +462,8 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
   const Outcomes reference = referenceOf(oracle);
   if (const auto unknown = std::ranges::count_if(reference, [](const auto& one) { return !one; });
       unknown > 0)
-    curve.reason += fmt::format("{}{} of {} points {}", missing > 0 ? "; " : "", unknown,
-                                reference.size(),
-                                convex ? "are not judged" : "have no reference");
+    curve.reason += fmt::format("{}{} of {} points have no reference", missing > 0 ? "; " : "",
+                                unknown, reference.size());
   const auto law = declaredLaw(can, asRun, effective, collidingPair(setup).reducedMass());
   const bool soft = law && law->soft();  // no place enters an impulse
   curve.score =
