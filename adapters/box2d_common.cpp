@@ -85,11 +85,11 @@ box2d_granular::Model box2dModel(const Scene& scene, double dt, double lengthUni
                            toVector(scene.disks.position[i]), toVector(scene.disks.velocity[i]),
                            scene.disks.spin[i]});
     if (!scene.isConvex(i)) continue;
-    const ShapeOf<2>& shape = scene.shapes[static_cast<std::size_t>(scene.disks.shape[i])];
-    for (const Vec2& vertex : shape.vertices)
-      model.disks.back().vertices.push_back(toVector(vertex));
-    model.disks.back().rounding = shape.rounding;
-    model.disks.back().turn = scene.disks.turn[i];
+    const ShapeOf<2>& shape = scene.shapeOf(i);
+    box2d_granular::Disk& body = model.disks.back();
+    for (const Vec2& vertex : shape.vertices) body.vertices.push_back(toVector(vertex));
+    body.rounding = shape.rounding;
+    body.turn = scene.disks.turn[i];
   }
   for (const WallBody& body : scene.bodies) model.walls.push_back(box2dWall(body));
   model.gravity = toVector(scene.gravity);

@@ -57,6 +57,10 @@ Contacts contactsFrom(const box2d_granular::ImpulseWorld::PairPoints& points, do
   return contacts;
 }
 
+SettingSpec iterations(const char* name, double value, const char* doc) {
+  return {name, value, "-", doc, {}, 1.0, 1e6, true, SettingRole::iterations};
+}
+
 double friction(const ContactLaw& law) {
   const bool frictionless = law.soft() && law.tangential == TangentialLaw::none;
   return frictionless ? 0.0 : law.mu;
@@ -126,11 +130,9 @@ class Box2dImpulse : public Engine {
         {"impact_speed", 0.005, "m/s",
          "contacts that begin more slowly get no tangential restitution: the position solver moves "
          "enduring ones apart by up to Box2D's slop, and slop/dt is of this order"},
-        {"velocity_iterations", 8.0, "-", "of Box2D's velocity solver", {}, 1.0, 1e6, true},
-        {"position_iterations", 3.0, "-", "of Box2D's position solver", {}, 1.0, 1e6, true},
+        iterations("velocity_iterations", 8.0, "of Box2D's velocity solver"),
+        iterations("position_iterations", 3.0, "of Box2D's position solver"),
         {"skin", 0.0, "-", "that polygons have around them, of Box2D's own", {}, 0.0, 1.0}};
-    for (SettingSpec& spec : can.settings)
-      if (spec.whole) spec.role = SettingRole::iterations;
     can.limits = box2dLimits();
     can.limits.shapes = {ShapeKind::polygon, ShapeKind::capsule};
     can.limits.mostVertices = b2_maxPolygonVertices;

@@ -157,7 +157,6 @@ void checkArrangement(Reader& in) {
   in.onlyOne({"grid", "stack", "chain", "line", "heap", "circles"});
 }
 
-/// The keys of [[assembly.disks]].
 template <int D>
 const Section<DisksInput<D>>& disksKeys() {
   using I = DisksInput<D>;

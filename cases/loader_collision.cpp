@@ -249,7 +249,7 @@ void readConvexPair(Reader& in, Collision& c) {
   c.convex = std::move(pair);
 }
 
-/// What disks have and convex bodies do not, and the other way.
+/// Refuses keys of disks where there are convex bodies, and the other way.
 void checkShape(Reader& in, const Collision& c) {
   std::string second = c.wall ? "wall" : "disk";
   if (const toml::node* const node = in.take("second")) second = *node->value<std::string>();

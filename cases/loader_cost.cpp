@@ -77,10 +77,8 @@ const Section<Cost>& costKeys() {
        .commands = "cost",
        .note = "Steps are numbers of steps in the contact time t_c of the lightest pair; of a law "
                "that stiffens, of its fastest impact here (without its dashpot). Rigid bodies have "
-               "no contact "
-               "time: of them endpoints with `expected` are judged, in units of their margins, and "
-               "steps "
-               "are parts of the case's own. Lists may be empty."},
+               "no contact time: of them endpoints with `expected` are judged, in units of their "
+               "margins, and steps are parts of the case's own. Lists may be empty."},
       costTable());
   return section;
 }

@@ -239,11 +239,6 @@ const SnapshotOf<D>& restingStart(const RecordingOf<D>& run) {
   return run.snapshots.back();
 }
 
-template <int D>
-bool atRest(const RecordingOf<D>& run, const SnapshotOf<D>& now) {
-  return now.positionTime >= restingStart(run).positionTime;
-}
-
 /// False: all that is seen at rest is one snapshot, which is as far from itself as any.
 template <int D>
 bool isWatchedAtRest(const RecordingOf<D>& run) {
@@ -252,10 +247,10 @@ bool isWatchedAtRest(const RecordingOf<D>& run) {
 
 template <int D>
 Curve kineticAtRest(const RecordingOf<D>& run) {
-  const double scale = energyScale(run);
+  const double scale = energyScale(run), from = restingStart(run).positionTime;
   return each(run, [&](const SnapshotOf<D>& now) {
     const double kinetic = energyOf(run, now).kinetic;
-    return atRest(run, now) && kinetic > 0.0 ? kinetic / scale : 0.0;
+    return now.positionTime >= from && kinetic > 0.0 ? kinetic / scale : 0.0;
   });
 }
 
@@ -305,7 +300,7 @@ Curve creep(const RecordingOf<D>& run) {
   const SnapshotOf<D>& start = restingStart(run);
   const double watched = endOf(run) - start.positionTime;
   return each(run, [&](const SnapshotOf<D>& now) {
-    return atRest(run, now) ? farthest(run.scene, start, now) / watched : 0.0;
+    return now.positionTime >= start.positionTime ? farthest(run.scene, start, now) / watched : 0.0;
   });
 }
 
@@ -332,9 +327,11 @@ double pileAngle(const SceneOf<D>& scene, const SnapshotOf<D>& now) {
 template <int D>
 Curve pileAngleChange(const RecordingOf<D>& run) {
   if (!isWatchedAtRest(run)) return {};
-  const double start = pileAngle(run.scene, restingStart(run));
+  const SnapshotOf<D>& start = restingStart(run);
+  const double angle = pileAngle(run.scene, start);
   return each(run, [&](const SnapshotOf<D>& now) {
-    return atRest(run, now) ? std::abs(pileAngle(run.scene, now) - start) : 0.0;
+    return now.positionTime >= start.positionTime ? std::abs(pileAngle(run.scene, now) - angle)
+                                                  : 0.0;
   });
 }
 
@@ -361,7 +358,7 @@ bool crossed(const VecOf<D>& before, const VecOf<D>& way, double reach) {
 template <int D>
 double innerRadius(const SceneOf<D>& scene, std::size_t i, double radius) {
   if (i >= scene.disks.size() || !scene.isConvex(i)) return radius;
-  const ShapeOf<D> point{ShapeKind::capsule, {VecOf<D>::Zero()}, 0.0};
+  const ShapeOf<D> point = roundShape<D>(0.0);
   return overlapOf<D>(PlacedBody<D>(scene, i, VecOf<D>::Zero(), noTurn<D>()).get(), {&point});
 }
 
@@ -661,9 +658,10 @@ Curve ratchet(const RecordingOf<D>& run) {
   const auto samples = static_cast<std::size_t>(
       std::llround(cycle / (endOf(run) / static_cast<double>(run.snapshots.size() - 1))));
   Curve curve(run.snapshots.size(), 0.0);
+  const double from = restingStart(run).positionTime;
   bool compared = false;
   for (std::size_t k = samples; k < curve.size(); ++k)
-    if (samples > 0 && atRest(run, run.snapshots[k - samples])) {
+    if (samples > 0 && run.snapshots[k - samples].positionTime >= from) {
       curve[k] = farthest(run.scene, run.snapshots[k - samples], run.snapshots[k]);
       compared = true;
     }
