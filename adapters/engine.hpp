@@ -21,7 +21,7 @@ enum class Support { optional, always, never };
 using SettingValue = std::variant<bool, double, std::string>;
 using Settings = std::map<std::string, SettingValue>;
 
-/// What a setting is to the engine, where something can be made of that without knowing its name.
+/// Meaning of a setting, for studies that vary it without knowing its name.
 enum class SettingRole {
   none,
   iterations  ///< a number of passes or parts that its solver makes of a step: more take longer

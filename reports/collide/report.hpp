@@ -19,8 +19,8 @@ std::vector<CaseGroup> casesOf(const CollideResults& results);
 /// A variant's own case where the results hold several.
 std::string caseOf(const CollideResults& results, const CollisionVariant& variant);
 
-/// What the points of a variant are drawn and listed over: its values in a table of them, and what
-/// they are, "orientation [°]".
+/// Values that a variant is swept over, of the points of a table, and their name on an axis,
+/// "orientation [°]".
 const std::vector<double>& axisOf(const CollisionVariant& variant, const CollisionTable& table);
 const char* axisWords(const CollisionVariant& variant);
 

@@ -230,7 +230,7 @@ Panel envelopePanel(const CostResults& results, const CostMeasure& measure) {
 Panel marginPanel(const CostResults& results, const CostMeasure& measure) {
   Panel panel = errorPanel(measure, "", "processor time of a simulated second [s]");
   panel.yLabel = "error [margins]";
-  // What is farther off than a thousand margins is wrong, below a thousandth nobody asks.
+  // Limits of the axis: beyond a thousand margins a run is wrong, below a thousandth exact enough.
   constexpr Range range{1e-3, 1e3};
   panel.yRange = range;
   panel.shadedTo = 1.0;

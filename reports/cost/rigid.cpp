@@ -17,7 +17,7 @@ std::string rowOf(const CostPoint& point) {
   return row.empty() ? "as the case has them" : row;
 }
 
-/// What is changed: steps alone, another setting alone, or both.
+/// Index of the kind of change: the step alone, another setting alone, or both.
 std::size_t changedIn(const CostPoint& point) {
   if (point.knob == "time_step") return 0;
   return point.setting.find(',') == std::string::npos ? 1 : 2;
