@@ -119,26 +119,36 @@ Table causesTable(const CompareResults& results) {
     std::ranges::stable_sort(parts, std::greater(), [](const auto& part) { return part.first; });
     Names seen;
     for (const auto& [size, words] : parts) seen.push_back(words);
-    const std::size_t others = one.own->parts.size() + 2 - seen.size();
+    const std::size_t others = one.own->parts.size() + 1 +
+                               (one.pair->mixtures == Mixtures::bothEnds ? 1 : 0) - seen.size();
     const std::string unit = one.unit().empty() ? "" : " " + one.unit();
-    TableRow row{{one.pair->b,
-                  one.pair->a,
-                  endpointWords(one.own->endpoint),
-                  withInterval(one, one.own->whole) + unit,
-                  shortly(one.margins),
-                  {seen.empty() ? "no cause is shown" : listed(seen),
-                   {fmt::format("rest {} of {} not shown, or below a hundredth",
-                                readable(one.account().remainder), counted(others, "part"))}},
-                  fmt::format("{}", one.own->packings)}};
+    TableRow row{
+        {one.pair->b,
+         one.pair->a,
+         endpointWords(one.own->endpoint),
+         withInterval(one, one.own->whole) + unit,
+         shortly(one.margins),
+         {seen.empty() ? "no cause is shown" : listed(seen),
+          {others == 0 ? std::string()
+                       : fmt::format("rest {} of {} not shown, or below a hundredth",
+                                     readable(one.account().remainder), counted(others, "part"))}},
+         fmt::format("{}", one.own->packings)}};
     row.cells[5].link = termLink(one.shownCause());
     table.rows.push_back(std::move(row));
   }
-  table.note =
-      "Parts are measured by runs of the in-house engine under mixtures of both engines' laws, on "
-      "the same packings; what is left is the implementation, or of rigid contacts the solver. All "
-      "of them add up to the difference. No part is named whose interval holds 0: the chance that "
-      "any of a pair's is named by accident is at most that of a false disagreement. causes.csv "
-      "has all.";
+  const bool mixed = std::ranges::any_of(results.causes, [](const PairCauses& pair) {
+    return !pair.endpoints.empty() && !pair.differences.empty();
+  });
+  table.note = fmt::format(
+      "{} All of them add up to the difference, with the sign that they have in the engine's value "
+      "minus that of the other. No part is named whose interval holds 0: the "
+      "chance that any of a pair's is named by accident is at most that of a false disagreement. "
+      "causes.csv has all.",
+      mixed ? "Parts are measured by runs of the in-house engine under mixtures of both engines' "
+              "laws, on the same packings; what is left is the implementation, or of rigid "
+              "contacts the solver."
+            : "Laws that do not differ have no part in a difference: all of it is the "
+              "implementation, or of rigid contacts the solver.");
   return table;
 }
 

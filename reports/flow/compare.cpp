@@ -313,7 +313,7 @@ Names compareNotes(const CompareResults& results, const Engines& engines) {
   for (const EngineRuns& engine : engines) notes.push_back(troubleInWords(engine));
   const auto isPaired = [](const EndpointRow& row) { return !row.unpaired; };
   if (results.packings.size() < 4 && std::ranges::all_of(results.endpoints.rows, isPaired) &&
-      !peersOf(results, engines).empty())
+      closedFormEngines(results.endpoints.rows).empty() && !peersOf(results, engines).empty())
     notes.emplace_back(
         "Fewer than 4 packings: differences between engines cannot be distinguished from those "
         "between packings, so no general verdict is given.");

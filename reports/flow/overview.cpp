@@ -175,6 +175,21 @@ std::string moreRunsOfFiles(const EndpointRow& row, const Engines& engines) {
                      ofA ? a : b, why);
 }
 
+/// What can be done about values that are beyond margins. One law for both helps where causes do
+/// not show that they have it; what misses a closed form may be its step or its iterations.
+std::string afterDisagreement(const CompareResults& results) {
+  const bool withClosedForms = !closedFormEngines(results.endpoints.rows).empty();
+  const bool oneLaw =
+      !results.causes.empty() && std::ranges::all_of(results.causes, [](const PairCauses& pair) {
+        return pair.reason.empty() && pair.differences.empty();
+      });
+  return fmt::format(
+      "Next: compare the margins with the accuracy that is needed{}.",
+      withClosedForms ? ", or see by crossgrain cost what smaller steps or more iterations change"
+      : oneLaw        ? ""
+                      : ", or give both the same law");
+}
+
 std::string nextStep(const CompareResults& results, const Engines& engines) {
   if (results.nothingJudged)
     return fmt::format("Nothing was judged: {}.", results.nothingJudged->reason);
@@ -208,8 +223,7 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
         planned ? "the same command with a larger --budget adds them"
                 : "the case plans no further interim analysis ([looks] in its file)");
   }
-  if (has(Verdict::fail))
-    return "Next: compare the margins with the accuracy that is needed, or give both the same law.";
+  if (has(Verdict::fail)) return afterDisagreement(results);
   if (has(Verdict::borderline))
     return "More packings will hardly change what is borderline: its difference is about the "
            "margin.";

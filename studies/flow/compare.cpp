@@ -164,9 +164,14 @@ void addCauses(CompareResults& results, Campaign& campaign, const Case& setup,
                                  own.causesOf.value_or(""));
   if (results.causes.empty() && (own.causes || own.causesOf))
     results.notes.emplace_back(
-        campaign.isNeutral()
+        !campaign.isNeutral()
+            ? "No causes were measured: no endpoint shows a difference between two engines."
+        : std::ranges::any_of(results.endpoints.rows,
+                              [](const EndpointRow& row) {
+                                return row.a == medianName && row.distance.has_value();
+                              })
             ? "No causes were measured: no engine shows a difference from the median of the others."
-            : "No causes were measured: no endpoint shows a difference between two engines.");
+            : "No causes were measured: no median of the others has a value to differ from.");
   results.elapsed = campaign.elapsed();
 }
 
