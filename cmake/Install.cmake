@@ -23,8 +23,8 @@ install(DIRECTORY engines DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         PATTERN node_modules EXCLUDE PATTERN grain EXCLUDE PATTERN box2d EXCLUDE)
 install(DIRECTORY engines/cpp DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/engines FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
-        FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.toml" PATTERN "*.lmp")
-install(FILES python/crossgrain.py DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/python)
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.ipynb" PATTERN "*.toml" PATTERN "*.lmp")
+install(FILES python/crossgrain.py python/pyproject.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/python)
 install(FILES README.md LICENSE CHANGELOG.md adapters/worker/protocol.schema.json
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})

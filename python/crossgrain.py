@@ -7,8 +7,11 @@
         for snapshot in snapshots:
             snapshot.contacts.force                               # (contacts, 2), on disk i [N]
 
-Absent numbers are NaN. Tables are dicts of columns, all of one length: pandas.DataFrame(table) takes them.
-Needs numpy, and h5py for snapshots. docs/results.md and docs/files.md have the layouts.
+    crossgrain.plot_profile(results, "stress_rr")             # every engine, with error bars
+    crossgrain.plot_endpoints(results)                        # every verdict, in margins
+
+Absent numbers are NaN. Needs numpy, h5py for snapshots, matplotlib for plots and pandas for frames. docs/results.md
+and docs/files.md have the layouts.
 """
 
 import csv
@@ -18,6 +21,7 @@ import pathlib
 
 import numpy as np
 
+__version__ = "0.3.0"  # that of CMakeLists.txt
 SCHEMA = "crossgrain-results-1"
 
 
@@ -33,10 +37,24 @@ def _column(values):
     return np.array(["" if value is None else value for value in values], dtype=object)
 
 
+class Table(dict):
+    """Columns by name, arrays of one length: doubles with NaN where a number is absent, else objects."""
+
+    def frame(self):
+        """The same as a pandas.DataFrame, of which notebooks draw tables."""
+        import pandas
+
+        return pandas.DataFrame(self)
+
+    def __repr__(self):
+        rows = len(next(iter(self.values()))) if self else 0
+        return f"<Table of {rows} row{'' if rows == 1 else 's'}: {', '.join(self)}>"
+
+
 def _table(rows):
-    """A dict of columns of dicts, in the order in which their names first come."""
+    """Columns of dicts, in the order in which their names first come."""
     names = dict.fromkeys(name for row in rows for name in row)
-    return {name: _column([row.get(name) for row in rows]) for name in names}
+    return Table({name: _column([row.get(name) for row in rows]) for name in names})
 
 
 def _one(found, what, names):
@@ -76,6 +94,9 @@ class Results:
         self.kind = self.document["kind"]  #: "compare", "collide", "lockstep", …
         self.case = self.document.get("case", {}).get("name")
         self.engines = [engine["name"] for engine in self.document.get("engines", [])]  #: the reference first
+
+    def __repr__(self):
+        return f"<Results of {self.kind}{f', case {self.case}' if self.case else ''}: {', '.join(self.engines) or 'no engine'}>"
 
     def _require(self, member, what):
         if member not in self.document:
@@ -175,6 +196,52 @@ class Results:
 
         with open(file, encoding="utf-8", newline="") as lines:
             return _table([{key: value(text) for key, text in row.items()} for row in csv.DictReader(lines)])
+
+
+def _axes():
+    from matplotlib import pyplot
+
+    return pyplot.subplots(layout="constrained")[1]
+
+
+def plot_profile(results, field, engines=None, ax=None, **choice):
+    """One field of engines (default: all that have it) with standard errors, over r, or over the numbers of bins that are
+    no rings. choice: packing and method, as of Results.profile. Returns matplotlib's axes."""
+    having = {p.engine for p in results._all_profiles() if p.field == field}
+    names = engines or [name for name in results.engines if name in having]
+    _one(names, f"profile of {field}", {p.field for p in results._all_profiles()})
+    ax = ax or _axes()
+    for name in names:
+        p = results.profile(field, engine=name, **choice)
+        ax.errorbar(p.r if len(p.r) else np.arange(1, len(p.mean) + 1), p.mean, p.stderr, capsize=2, label=name)
+    ax.set_xlabel("r [m]" if len(p.r) else "bin")
+    ax.set_ylabel(field.replace("_", " ") + ("" if p.unit in ("-", "1") else f" [{p.unit}]"))
+    ax.legend()
+    return ax
+
+
+def plot_endpoints(results, against=None, ax=None):
+    """Differences of all engines from one (default: the closed form where the case has it, else the reference) in margins,
+    with the intervals that verdicts rest on; the band is the margin. Returns matplotlib's axes."""
+    rows = results._require("endpoints", "endpoints")
+    references = [row["a"] for row in rows["rows"]]
+    against = against or next((a for a in ("closed-form", rows.get("reference")) if a in references), None) or results._reference()
+    _one([a for a in references if a == against], f"verdict against {against}", references)
+    rows = [row for row in rows["rows"] if row["a"] == against and row["distance"] is not None]
+    names, engines = (list(dict.fromkeys(row[key] for row in rows)) for key in ("endpoint", "b"))
+    ax = ax or _axes()
+    ax.axvspan(-1.0, 1.0, color="0.9")
+    for k, engine in enumerate(engines):
+        own = [row for row in rows if row["b"] == engine]
+        low, middle, high = (_numbers([row[key] for row in own]) for key in ("distance_low", "distance", "distance_high"))
+        places = [names.index(row["endpoint"]) + 0.6 * (k + 0.5) / len(engines) - 0.3 for row in own]
+        bars = np.nan_to_num([middle - low, high - middle])
+        ax.errorbar(middle, places, xerr=bars, fmt="o", capsize=2, label=engine)
+    ax.set_yticks(range(len(names)), [name.replace("_", " ") for name in names])
+    ax.invert_yaxis()
+    ax.set_xlabel(f"difference from {against} [margins]")
+    ax.legend()
+    return ax
 
 
 @dataclasses.dataclass

@@ -7,6 +7,7 @@ import sys
 import unittest
 
 import h5py
+import matplotlib
 import numpy as np
 
 from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HELD, HOME, SystemTest, settings
@@ -14,6 +15,18 @@ from harness import BAD_INPUT, CASES, COLLISION, COUETTE, FELL_SHORT, HELD, HOME
 sys.path.insert(0, str(HOME / "python"))
 import crossgrain  # noqa: E402
 
+#: Runs the cells of a notebook and prints the value that each ends with, as a notebook would.
+RUN_CELLS = """
+import ast, json, sys
+names = {}
+for cell in json.load(open(sys.argv[1], encoding="utf-8"))["cells"]:
+    if cell["cell_type"] == "code":
+        lines = ast.parse("".join(cell["source"])).body
+        last = lines.pop() if isinstance(lines[-1], ast.Expr) else None
+        exec(compile(ast.Module(lines, []), "cell", "exec"), names)
+        if last:
+            print(eval(compile(ast.Expression(last.value), "cell", "eval"), names))
+"""
 SHORT = settings(averaging__rotations=0.05, averaging__settle_rotations=0.01, preparation__packings=1, run__keep_snapshots=3)
 
 
@@ -395,11 +408,35 @@ class PythonReader(OneRun):
             np.testing.assert_array_equal(ours[name], file[name], name)
         self.assertLess(np.nanmax(abs(ours["psi_f"] - ours["psi_f_reference"])), 0.05)
 
-    def test_example_runs(self):
-        done = self.call(sys.executable, HOME / "examples/python/read_results.py", self.ran)
+    def test_notebook_runs(self):
+        (self.folder / "out").mkdir()
+        (self.folder / "out/quick").symlink_to(self.ran)
+        environment = {"PYTHONPATH": str(HOME / "python"), "MPLBACKEND": "Agg"}
+        done = self.call(sys.executable, "-c", RUN_CELLS, HOME / "examples/python/results.ipynb", env=environment)
         self.assert_status(done, 0)
-        for words in ("volume_fraction", "box2d-penalty against grain", "snapshots of grain", "largest net force"):
+        for words in ("<Results of compare, case ", "box2d-penalty", "kinetic energy of grain", "the largest net force"):
             self.assertIn(words, done.stdout)
+
+    def test_plots_have_every_engine(self):
+        matplotlib.use("Agg")
+        results = crossgrain.Results(self.ran)
+        of_profile = crossgrain.plot_profile(results, "volume_fraction")
+        names = [text.get_text() for text in of_profile.get_legend().get_texts()]
+        self.assertEqual(["grain", "box2d-penalty"], [name for name in names if not name.startswith("grain-as-")])
+        line = of_profile.containers[1].lines[0].get_xydata()
+        mine = results.profile("volume_fraction", engine="box2d-penalty")
+        np.testing.assert_array_equal(line, np.stack([mine.r, mine.mean], axis=1))
+        of_endpoints = crossgrain.plot_endpoints(results)
+        rows = results.endpoints().frame()
+        shown = rows[(rows.a == "grain") & (rows.b == "box2d-penalty") & rows.distance.notna()]
+        drawn = {text.get_text(): bars.lines[0].get_xdata() for text, bars in zip(of_endpoints.get_legend().get_texts(), of_endpoints.containers)}
+        np.testing.assert_array_equal(drawn["box2d-penalty"], shown.distance)
+        with self.assertRaises(KeyError):
+            crossgrain.plot_endpoints(results, against="nobody")
+
+    def test_version_is_the_programs(self):
+        self.assertIn(crossgrain.__version__, self.run_program("--version").stdout)
+        self.assertIn(f"version: {crossgrain.__version__}\n", (HOME / "CITATION.cff").read_text(encoding="utf-8"))
 
 
 if __name__ == "__main__":
