@@ -93,7 +93,8 @@ std::string accountWords(const CauseAccount& account) {
   if (std::abs(account.interaction) >= least && account.interaction != 0.0)
     words.push_back("interaction " + besideWhole(account.interaction, account.whole));
   if (words.empty() && account.remainderName.empty()) return "no cause is shown";
-  words.push_back(account.remainderName + " " + besideWhole(account.remainder, account.whole));
+  if (account.remainder != 0.0 || words.empty())
+    words.push_back(account.remainderName + " " + besideWhole(account.remainder, account.whole));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 

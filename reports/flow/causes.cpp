@@ -192,18 +192,21 @@ Names causeSentences(const CompareResults& results, std::size_t most) {
             one.account(), one.unit(), one.margin(), "margin")) +
         ".");
   }
+  SaidOf reasons;
   Names open, partly;
   double seconds = 0.0, further = 0.0;
   for (const PairCauses& pair : results.causes) {
     if (!isOfReference(results, pair)) continue;
     if (!pair.reason.empty()) {
-      sentences.push_back(fmt::format("The differences of {} are not attributed: {}.",
-                                      pairWords(pair), pair.reason));
+      reasons.add(pairWords(pair), pair.reason);
     } else if (pair.missing) {
       (pair.endpoints.empty() ? open : partly).push_back(pair.b);
       (pair.endpoints.empty() ? seconds : further) += *pair.missing;
     }
   }
+  for (const auto& [reason, pairs] : reasons.all())
+    sentences.push_back(
+        fmt::format("The differences of {} are not attributed: {}.", listed(pairs), reason));
   if (!open.empty())
     sentences.push_back(
         fmt::format("Causes of the differences of {} were not measured: they take {}.",

@@ -133,9 +133,9 @@ std::string comparePlan(const StudyWork& work, const CompareOptions& own) {
 /// Files that no engine that takes part has made.
 std::string neutralNote(const Case& setup, const Campaign& campaign, bool lockstep) {
   const std::string packings =
-      campaign.packings().empty() ? ""
-      : packingsAreFiles(setup)   ? "; packings are files"
-      : !cellOf(setup)            ? "; packings are random, of the case's seeds"
+      campaign.packings().empty() || hasClosedForms(setup) ? ""
+      : packingsAreFiles(setup)                            ? "; packings are files"
+      : !cellOf(setup) ? "; packings are random, of the case's seeds"
                        : "; packings are made by " + (couetteIn(setup).filling.engine.empty()
                                                           ? engineRegistry().front().name
                                                           : couetteIn(setup).filling.engine);

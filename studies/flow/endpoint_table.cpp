@@ -16,6 +16,9 @@ namespace crossgrain::inline studies {
 
 namespace {
 
+/// Engines whose values have a median.
+constexpr std::size_t fewestOfMedian = 2;
+
 /// An endpoint of two engines on its way to a verdict.
 struct EndpointTest {
   EndpointRow row;
@@ -119,7 +122,7 @@ AblePair ablePair(const Endpoint& endpoint, const Case& setup, const ComparedPai
   for (const Runs& all : ours)
     if (Runs own = add(all); !own.empty()) able.ours.push_back(std::move(own));
   able.theirs = add(theirs);
-  const std::size_t fewest = pair.others.empty() ? 1 : 2;  // of a median
+  const std::size_t fewest = pair.others.empty() ? 1 : fewestOfMedian;
   able.none = able.theirs.empty() || able.ours.size() < fewest;
   const auto has = [](const Runs& runs, int packing) {
     return std::ranges::find(runs, packing, &FlowRun::packing) != runs.end();
@@ -361,6 +364,19 @@ RepeatedValue repeatedValue(const Endpoint& endpoint, const Case& setup,
   return found;
 }
 
+/// Of the first of a pair, or the median of those that stand for it, as many of them as have a
+/// value.
+RepeatedValue repeatedReference(const Endpoint& endpoint, const Case& setup,
+                                std::span<const FlowRun> runs, const ComparedPair& pair) {
+  if (pair.others.empty()) return repeatedValue(endpoint, setup, runs, pair.a);
+  std::vector<Numbers> values;
+  for (const std::string& engine : pair.others)
+    if (const auto own = repeatedValue(endpoint, setup, runs, engine); own.value)
+      values.push_back({own.value});
+  if (values.size() < fewestOfMedian) return {{}, 0, "too few of the others have a value"};
+  return {medianByPacking(values).front(), 0, {}};
+}
+
 void answerExactly(EndpointRow& row, const RepeatedValue& a, const RepeatedValue& b) {
   row.packings = closedFormRuns - std::max(a.without, b.without);
   row.lost = closedFormRuns - row.packings;
@@ -382,7 +398,8 @@ std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const FlowR
     const auto add = [&](const ComparedPair& pair, const RepeatedValue& first) {
       rows.push_back(emptyRow(pair, endpoint, setup.averaging.endpoints.at(endpoint.name)));
       for (const auto& [engine, without] :
-           {std::pair(pair.a, std::string()), {pair.b, pair.without}})
+           {std::pair(pair.others.empty() ? pair.a : pair.b, std::string()),
+            {pair.b, pair.without}})
         if (const AbleRuns able = ableRuns(endpoint, setup, finishedRuns(runs, engine, without));
             able.runs.empty() && !able.lack.empty()) {
           rows.back().verdict = Verdict::notMeasured;
@@ -393,9 +410,11 @@ std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const FlowR
     };
     for (const std::string& engine : engines)
       add({closedFormName, engine, PairKind::closedForm}, {endpoint.expected, 0, {}});
+    const auto ran = [&](const std::string& engine) { return !finishedRuns(runs, engine).empty(); };
     for (const ComparedPair& pair : pairs)
-      if (!finishedRuns(runs, pair.a).empty() && !finishedRuns(runs, pair.b, pair.without).empty())
-        add(pair, repeatedValue(endpoint, setup, runs, pair.a));
+      if (std::ranges::any_of(pair.references(), ran) &&
+          !finishedRuns(runs, pair.b, pair.without).empty())
+        add(pair, repeatedReference(endpoint, setup, runs, pair));
   }
   return rows;
 }

@@ -173,6 +173,31 @@ TEST(CompareCauses, WhatWasNotRun_SaysWhatItTakes) {
   EXPECT_EQ(compareOverview(results).conclusion[1],
             "The differences of theirs against ours are not attributed: theirs has another normal "
             "law, whose constants it does not report.");
+  results.causes.push_back(results.causes[0]);
+  results.causes[1].b = "third";
+  EXPECT_EQ(compareOverview(results).conclusion[1],
+            "The differences of theirs against ours and third against ours are not attributed: "
+            "theirs has another normal law, whose constants it does not report.");
+}
+
+/// Of one law, rigid contacts differ by their solvers alone: no run of mixtures, no other law.
+TEST(CompareCauses, OneLaw_IsTheSolver) {
+  CompareResults results = disagreeing();
+  PairCauses pair = measuredCauses(results);
+  pair.differences.clear();
+  pair.endpoints[0].parts.clear();
+  pair.endpoints[0].remainder = pair.endpoints[0].whole;
+  pair.remainder = "solver";
+  results.causes = {pair};
+  const Overview overview = compareOverview(results);
+  EXPECT_EQ(overview.conclusion[1],
+            "Pressure of theirs is 30.0 % higher than ours's on 8 packings: solver 30.0 (1 margin "
+            "= 10.0 %).");
+  EXPECT_EQ(overview.conclusion.back(),
+            "Next: compare the margins with the accuracy that is needed.");
+  const std::string page = wholeTextOf(compareReport(results));
+  EXPECT_EQ(page.find("mixtures"), std::string::npos);
+  EXPECT_EQ(page.find("rest "), std::string::npos) << page;
 }
 
 /// A mirror of "theirs", and what it answers to it where the two peers disagree.

@@ -308,6 +308,15 @@ TEST(EndpointTable, ClosedForm_JudgesEveryEngineOnOneStart) {
   EXPECT_FALSE(rows[2].difference);
   EXPECT_EQ(rows[3].verdict, Verdict::fail);  // a and b, 2.5 margins apart
   EXPECT_NEAR(*rows[3].difference, 0.25, 1e-12);
+  // Without a reference each is compared with the median of the others that have a value.
+  append(runs, heights("c", 2.1, 2.1));
+  ComparedPair neutral{medianName, "b"};
+  neutral.others = {"a", "noisy", "c"};
+  const EndpointRow ofMedian = closedFormRows(setup, runs, {}, {neutral}).at(0);
+  EXPECT_NEAR(*ofMedian.reference, 2.075, 1e-12);
+  EXPECT_NEAR(*ofMedian.distance, 2.25, 1e-12);
+  neutral.others = {"a", "noisy"};
+  EXPECT_EQ(closedFormRows(setup, runs, {}, {neutral}).at(0).verdict, Verdict::undecided);
   // A run that failed is no second one.
   runs[1].status = Status::failed;
   EXPECT_EQ(closedFormRows(setup, runs, {"a"}, {})[0].verdict, Verdict::undecided);
