@@ -4,6 +4,7 @@
 #   share/crossgrain/examples      engines of one's own to begin with; engines/python and engines/cpp are their helpers
 #   share/crossgrain/python        crossgrain.py reads results and snapshots
 #   share/bash-completion/completions
+#   share/man                      what --help says
 #   lib, include/crossgrain        the libraries, for find_package(crossgrain)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -25,7 +26,7 @@ install(DIRECTORY engines/cpp DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/en
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.ipynb" PATTERN "*.toml" PATTERN "*.lmp")
 install(FILES python/crossgrain.py python/pyproject.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/python)
-install(FILES README.md LICENSE CHANGELOG.md adapters/worker/protocol.schema.json
+install(FILES README.md LICENSE CHANGELOG.md CITATION.cff adapters/worker/protocol.schema.json cmake/copyright
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # Targets of these pages' links, at the places where the links point.
@@ -58,8 +59,23 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/crossgrainConfig.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/crossgrainConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/crossgrain)
 
+# The manual page says what --help says; without help2man there is none.
+find_program(HELP2MAN help2man)
+if(HELP2MAN)
+  set(manual ${CMAKE_CURRENT_BINARY_DIR}/crossgrain.1)
+  add_custom_command(OUTPUT ${manual} DEPENDS crossgrain
+    COMMAND ${CMAKE_COMMAND} -E env COLUMNS=80 ${HELP2MAN} --no-info --output ${manual}
+            --name "compare granular and rigid-body engines on one scene" $<TARGET_FILE:crossgrain>)
+  add_custom_target(manual ALL DEPENDS ${manual})
+  install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endif()
+
+# Removes what the last installation of this build folder has put there; folders stay.
+add_custom_target(uninstall
+  COMMAND ${CMAKE_COMMAND} -DMANIFEST=${CMAKE_BINARY_DIR}/install_manifest.txt -P ${PROJECT_SOURCE_DIR}/cmake/Uninstall.cmake)
+
 set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "the crossgrain project")
+set(CPACK_PACKAGE_CONTACT "The crossgrain developers")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Validation harness for granular (DEM) simulation engines")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)

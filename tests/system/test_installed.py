@@ -116,6 +116,20 @@ class LaidOut(InstalledTest):
     def test_completion(self):
         self.assertTrue((self.prefix / "share/bash-completion/completions/crossgrain").exists())
 
+    def test_manual_page_has_every_command(self):
+        page = (self.prefix / "share/man/man1/crossgrain.1").read_text(encoding="utf-8")
+        for command in ("compare", "collide", "stability", "cost"):
+            self.assertIn(command, page)
+
+    def test_uninstall_leaves_no_file(self):
+        made, manifest = self.folder / "made", self.folder / "install_manifest.txt"
+        call("cmake", "--install", BUILD, "--prefix", made)
+        shutil.copy(BUILD / "install_manifest.txt", manifest)
+        own = made / "share/crossgrain/cases/own.toml"
+        own.write_text("", encoding="utf-8")
+        call("cmake", f"-DMANIFEST={manifest}", "-P", SOURCES / "cmake/Uninstall.cmake")
+        self.assertEqual([own], [path for path in made.rglob("*") if not path.is_dir()])
+
     def test_another_project_finds_builds_and_runs_with_the_libraries(self):
         build = self.folder / "build"
         call("cmake", "-S", CONSUMER, "-B", build, "-G", "Ninja", f"-DCMAKE_PREFIX_PATH={self.prefix}")
@@ -137,6 +151,7 @@ class Package(InstalledTest):
         for library in ("libgsl", "libhdf5", "libbox2d", "libfmt", "libc6", "gnuplot"):
             self.assertIn(library, depends)
         self.assertIn("yade", call("dpkg-deb", "-f", deb, "Recommends"))
+        self.assertIn("/usr/share/doc/crossgrain/copyright\n", call("dpkg-deb", "-c", deb))
         call("dpkg-deb", "-x", deb, self.folder / "root")
         program = self.folder / "root/usr/bin/crossgrain"
         self.assertIn("grain", call(program, "engines"))

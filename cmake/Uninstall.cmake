@@ -1,0 +1,5 @@
+if(NOT EXISTS ${MANIFEST})
+  message(FATAL_ERROR "nothing was installed from this folder: there is no ${MANIFEST}")
+endif()
+file(STRINGS ${MANIFEST} installed)
+file(REMOVE ${installed})
