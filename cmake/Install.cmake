@@ -26,7 +26,7 @@ install(DIRECTORY engines/cpp DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/en
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.py" PATTERN "*.cpp" PATTERN "*.ipynb" PATTERN "*.toml" PATTERN "*.lmp")
 install(FILES python/crossgrain.py python/pyproject.toml DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain/python)
-install(FILES README.md LICENSE CHANGELOG.md CITATION.cff adapters/worker/protocol.schema.json cmake/copyright
+install(FILES README.md LICENSE CHANGELOG.md CITATION.cff CONTRIBUTING.md SECURITY.md adapters/worker/protocol.schema.json cmake/copyright
         DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 # Targets of these pages' links, at the places where the links point.
