@@ -82,6 +82,12 @@ std::string readableSetting(std::optional<double> value) {
   return typeset(digits.substr(0, power)) + timesPowerOfTen(std::stoi(digits.substr(power + 1)));
 }
 
+std::string counted(std::size_t count, std::string_view noun) {
+  if (count != 1 && noun.ends_with('y'))
+    return fmt::format("{} {}ies", count, noun.substr(0, noun.size() - 1));
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string readableCount(std::optional<double> value) {
   return finite(value) ? fixed(*value, 0) : absentText;
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// Numbers for people to read, as plain text. Absent is "–".
@@ -22,6 +23,9 @@ std::string readable(std::optional<double> value);
 
 /// A number that somebody chose, with the digits that were given, up to four: 352.1, 0.25, 4×10⁻⁵.
 std::string readableSetting(std::optional<double> value);
+
+/// "1 field", "2 fields", "3 bodies"
+std::string counted(std::size_t count, std::string_view noun);
 
 /// A count, with spaces between thousands.
 std::string readableCount(std::optional<double> value);

@@ -167,10 +167,6 @@ std::string listedShortly(const Names& names, std::size_t most) {
   return listed(few);
 }
 
-std::string counted(std::size_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 std::string ofBodies(std::string text) {
   for (const auto& [round, any] : {std::pair("disks", "bodies"),
                                    {"Disks", "Bodies"},

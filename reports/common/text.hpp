@@ -52,8 +52,7 @@ std::string listedShortly(const std::vector<std::string>& names, std::size_t mos
 /// "all 4 runs", "both runs", "the one run"
 std::string allOf(std::size_t count, std::string_view noun);
 
-/// "1 field", "2 fields"
-std::string counted(std::size_t count, std::string_view noun);
+using support::counted;
 
 /// Words about disks or spheres as ones about bodies of any shape: "contacts per body".
 std::string ofBodies(std::string text);

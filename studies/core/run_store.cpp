@@ -280,6 +280,8 @@ CaseKeys resultAffectingKeys(const std::string& resolvedToml) {
                                                  "cost.collision_steps",
                                                  "cost.trajectory_steps",
                                                  "cost.average_steps",
+                                                 "cost.rigid_steps",
+                                                 "cost.iterations",
                                                  "cost.tangential",
                                                  "cost.disks",
                                                  "cost.threads",

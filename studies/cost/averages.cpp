@@ -14,6 +14,7 @@
 #include "studies/core/executor.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/run.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -192,8 +193,8 @@ class AverageErrors final : public ErrorKind {
           {.kind = kind(),
            .engine = study_.inHouse.name,
            .setting = fmt::format("t_c/{:g}", study_.setup.cost.averageReference),
-           .note = fmt::format("{} packings, paired: its statistical error is part of each point's",
-                               reference_.size())});
+           .note = fmt::format("{}, paired: its statistical error is part of each point's",
+                               counted(reference_.size(), "packing"))});
   }
 
  private:

@@ -15,6 +15,7 @@
 #include "studies/core/study.hpp"
 #include "support/bad_input.hpp"
 #include "support/interrupt.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -93,7 +94,7 @@ class SizeTimings {
     rounds_.resize(times_.size());
     for (int round = 0; round < setup.cost.repeats; ++round)
       for (std::size_t from = 0, to = 0; from < times_.size(); from = to) {
-        while (to < times_.size() && times_[to].bodies == times_[from].bodies) ++to;
+        while (to < times_.size() && wanted_[to] == wanted_[from]) ++to;
         inDimensionOf(setup, [&]<int D>() { roundOf<D>(from, to, round); });
       }
     for (std::size_t k = 0; k < times_.size(); ++k) summarise(times_[k], rounds_[k]);
@@ -129,6 +130,7 @@ class SizeTimings {
                                 static_cast<double>(own_),
                             setup.cost.timed);
       engines_.push_back(e);
+      wanted_.push_back(one.bodies);
       times_.push_back(std::move(time));
     }
   }
@@ -141,13 +143,12 @@ class SizeTimings {
   }
 
   std::string nameOf(std::size_t k, int round) const {
-    return fmt::format("steps-{}-{}-disks-{}-r{}", times_[k].engine, times_[k].bodies,
-                       times_[k].workers, round);
+    return fmt::format("steps-{}-{}-bodies-{}-r{}", times_[k].engine, wanted_[k], times_[k].workers,
+                       round);
   }
+  /// Without the number of steps, which follows a timing and differs in every call.
   CaseKeys keyOf(std::size_t k) const {
-    CaseKeys key = study_.campaign.keyOf(engines_[k], 0, "cost: time of a step");
-    key["steps"] = fmt::format("{}", times_[k].steps);
-    return key;
+    return study_.campaign.keyOf(engines_[k], 0, "cost: time of a step");
   }
 
   /// One round of all timings of one size, which share a scene.
@@ -158,6 +159,8 @@ class SizeTimings {
       if (times_[k].status != Status::finished) continue;
       if (const auto kept = study_.campaign.store().findAs<StepTime>(nameOf(k, round), keyOf(k))) {
         rounds_[k].push_back(*kept);
+        times_[k].bodies = kept->bodies;  // further rounds repeat it
+        times_[k].steps = kept->steps;
         continue;
       }
       throwIfInterrupted();
@@ -167,7 +170,7 @@ class SizeTimings {
           continue;
         }
         if (!scene) {
-          scene = sceneOf<D>(times_[k].bodies);
+          scene = sceneOf<D>(wanted_[k]);
           for (std::size_t same = from; same < to; ++same)
             times_[same].bodies = scene->disks.size();
         }
@@ -225,8 +228,9 @@ class SizeTimings {
   StepTime timed(std::size_t k, const SceneOf<D>& scene) {
     StepTime time = times_[k];
     const EngineEntry& entry = study_.entryOf(engines_[k]);
-    study_.campaign.progress().say(fmt::format("timing steps: {}, {} bodies, {}", time.engine,
-                                               time.bodies, describeWorkers(time)));
+    study_.campaign.progress().say(fmt::format("timing steps: {}, {}, {}", time.engine,
+                                               counted(time.bodies, "body"),
+                                               describeWorkers(time)));
     time.measured = timeStamp();
     Case setup = study_.setup;
     // Loading, or a tenth of the steps, a hundred times slower than the in-house engine.
@@ -272,6 +276,7 @@ class SizeTimings {
   double left_;          ///< [s]
   std::size_t own_ = 0;  ///< bodies of the scene as it is
   std::vector<StepTime> times_;
+  std::vector<std::size_t> wanted_;            ///< of times_: bodies; a scene may have some more
   std::vector<std::size_t> engines_;           ///< of times_: their places
   std::vector<std::vector<StepTime>> rounds_;  ///< likewise
 };

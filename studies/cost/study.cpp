@@ -87,9 +87,9 @@ void requireSound(const SceneOf<D>& scene, const SnapshotOf<D>& snapshot) {
   const double speed = std::sqrt(squares / static_cast<double>(snapshot.velocity.size()));
   const double driven = drivenSpeed(scene);
   if (!(speed < mostSpeed * driven))
-    throw EngineFailure(fmt::format(
-        "{}: at t = {:.3g} s the {}' rms speed is {:.3g} times what drives them", beyondLimit,
-        snapshot.positionTime, D == 2 ? "disks" : "spheres", speed / driven));
+    throw EngineFailure(
+        fmt::format("{}: at t = {:.3g} s the bodies' rms speed is {:.3g} times what drives them",
+                    beyondLimit, snapshot.positionTime, speed / driven));
 }
 template double drivenSpeed(const Scene&);
 template double drivenSpeed(const SpaceScene&);

@@ -22,6 +22,7 @@
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/interrupt.hpp"
+#include "support/numbers.hpp"
 #include "support/task_pool.hpp"
 
 namespace crossgrain::inline studies {
@@ -427,8 +428,9 @@ void Campaign::lookForPackings() {
 }
 
 std::string Campaign::planHead() const {
-  return fmt::format("{}: {} packings, {} of them prepared already\n", setup_.name,
-                     packings_.size(), std::ranges::count_if(packings_, &Packing::fromCache));
+  return fmt::format("{}: {}, {} of them prepared already\n", setup_.name,
+                     counted(packings_.size(), "packing"),
+                     std::ranges::count_if(packings_, &Packing::fromCache));
 }
 
 std::vector<PlannedWork> Campaign::plan(const std::vector<Variant>& variants) const {

@@ -15,6 +15,7 @@
 #include "cases/endpoints.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/paired_runs.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -154,7 +155,7 @@ struct PairBasis {
 };
 
 std::string describe(const PairBasis& found, const std::string& a, const std::string& b) {
-  const auto counted = [](int runs) { return fmt::format("{} run{}", runs, runs == 1 ? "" : "s"); };
+  const auto runs = [](int count) { return counted(static_cast<std::size_t>(count), "run"); };
   const std::string& fewer = found.a < found.b ? a : b;
   const std::string& more = found.a < found.b ? b : a;
   switch (found.basis) {
@@ -162,17 +163,17 @@ std::string describe(const PairBasis& found, const std::string& a, const std::st
       return fmt::format(
           "{} and {} have {} each: the first is compared with the first, and so on. Intervals "
           "hold whether or not they began from the same packings; they are narrower if they did.",
-          a, b, counted(found.a));
+          a, b, runs(found.a));
     case Basis::independent:
       return fmt::format(
           "{} has {} and {} {}: they are compared as independent samples, each with its own "
           "scatter over packings.",
-          a, counted(found.a), b, found.b);
+          a, runs(found.a), b, found.b);
     case Basis::oneScatter:
       return fmt::format(
           "{} has {}, too few to know its scatter over packings: it is taken to scatter as {} "
           "does.",
-          fewer, counted(std::min(found.a, found.b)), more);
+          fewer, runs(std::min(found.a, found.b)), more);
     case Basis::oneRunEach:
       return fmt::format(
           "{} and {} have one run each: intervals are those of the two runs' own series. They do "

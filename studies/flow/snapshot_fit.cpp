@@ -12,6 +12,7 @@
 #include "cases/assembly_scene.hpp"
 #include "cases/couette.hpp"
 #include "support/bad_input.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 namespace {
@@ -196,12 +197,15 @@ void throwIfAny(const Misfits& misfits, const Case& setup, const SnapshotOrigin&
 /// Of an assembly; any start file's number will do.
 template <int D>
 void compareNumber(std::size_t found, const AssemblyOf<D>& assembly, Misfits& misfits) {
-  const char* const word = assembly.anyConvex() ? "bodies" : "disks";
-  if (assembly.starts.disks.empty())
-    return misfits.number(word, found, groupDisks<D>(assembly).size());
+  const auto differs = [&](std::size_t target) {
+    if (found != target)
+      misfits.add(fmt::format("{}, not {}", counted(found, assembly.anyConvex() ? "body" : "disk"),
+                              target));
+  };
+  if (assembly.starts.disks.empty()) return differs(groupDisks<D>(assembly).size());
   const bool known = std::ranges::any_of(
       assembly.starts.disks, [&](const DisksOf<D>& start) { return start.size() == found; });
-  if (!known) misfits.number(word, found, assembly.starts.disks.front().size());
+  if (!known) differs(assembly.starts.disks.front().size());
 }
 
 /// Disks of a file in a Couette cell.

@@ -321,7 +321,7 @@ class Compare(SystemTest):
 
     def test_quick_makes_nothing_longer(self):
         done = self.compare("--dry-run", "--set=preparation.packings=1")
-        self.assertIn("1 packings", done.stdout)
+        self.assertIn("1 packing,", done.stdout)
 
 
 class InterimAnalyses(SystemTest):

@@ -311,6 +311,16 @@ class Cost(StudyTest):
         case = self.write("pasted.toml", f'[case]\nextends = "{CASES / "cost/quick.toml"}"\n\n{done.stdout}')
         self.held("check", case, "--engines", "grain", "--no-timing")
 
+    def test_sizes_that_were_timed_are_taken(self):
+        """Their numbers of steps follow a timing, which differs in each call."""
+        sizes = settings(cost__kinds=[], cost__knobs=["disks"], cost__disks=[1])
+        kept = []
+        for _ in range(2):
+            self.assert_status(self.cost("--quiet", *sizes), HELD)
+            kept.append((self.finished_runs(), self.rows("scale.csv")))
+        self.assertTrue(any(name.startswith("steps-") for name in kept[0][0]), kept[0][0])
+        self.assertEqual(*kept)
+
     def test_an_engine_more_and_no_time_take_nothing_back(self):
         paths = settings(cost__kinds=["trajectory"])
         ran = {}
