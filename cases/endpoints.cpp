@@ -157,7 +157,11 @@ std::span<const RegionNumber> diskNumbers(int dimension) {
       RegionNumber{"spin_x", "rad/s", "x of a sphere's angular velocity"},
       RegionNumber{"spin_y", "rad/s", "y of a sphere's angular velocity"},
       RegionNumber{"spin_z", "rad/s", "z of a sphere's angular velocity"},
-      RegionNumber{"angle", "rad", "by which a convex body has turned from its start, 0 to π"}};
+      RegionNumber{"angle", "rad", "by which a convex body has turned from its start, 0 to π"},
+      RegionNumber{"own_spin_x", "rad/s",
+                   "a convex body's angular velocity about its axis that was along x at its start"},
+      RegionNumber{"own_spin_y", "rad/s", "about that along y"},
+      RegionNumber{"own_spin_z", "rad/s", "about that along z"}};
   if (dimension == 3) return inSpace;
   return inPlane;
 }

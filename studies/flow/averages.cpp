@@ -94,6 +94,14 @@ std::optional<double> angleOf(const SceneOf<D>& scene, const SnapshotOf<D>& now,
     return turnBetween<D>(turn, start);
 }
 
+/// Spin of a convex body about axes of its own, which were along the scene's at its start; absent
+/// of a sphere [rad/s].
+std::optional<Vec3> ownSpin(const SpaceScene& scene, const SpaceSnapshot& now, std::size_t i) {
+  if (!scene.isConvex(i) || !now.turn || !now.spin) return std::nullopt;
+  return Vec3(matrixOf<3>(scene.disks.turn[i]) * matrixOf<3>((*now.turn)[i]).transpose() *
+              (*now.spin)[i]);
+}
+
 /// How far a body reaches above its centre, along y or, in space, z [m].
 template <int D>
 double reachUp(const SceneOf<D>& scene, const SnapshotOf<D>& now, std::size_t i) {
@@ -114,6 +122,11 @@ void FlowAverages<D>::addDisks(const SnapshotOf<D>& now) {
     Numbers& row = series_[own.series()];
     if (own.quantity == "angle") {
       row.push_back(angleOf(scene_, now, i, row.empty() ? std::nullopt : row.back()));
+    } else if (own.quantity.starts_with("own_spin")) {
+      if constexpr (D == 3) {
+        const auto spin = ownSpin(scene_, now, i);
+        row.push_back(spin ? std::optional((*spin)[componentOf(own.quantity)]) : std::nullopt);
+      }
     } else if (own.quantity.starts_with("spin")) {
       if (!now.spin)
         row.emplace_back();

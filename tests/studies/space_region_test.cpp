@@ -75,6 +75,34 @@ TEST(SpaceRegion, EveryNumberOfARegion_HasASeries) {
     EXPECT_TRUE(run.series->contains(std::string(number.name))) << number.name;
 }
 
+/// A body that began turned by a quarter about z, and has been turned on by half about x since: its
+/// axis that was along y is along −y now.
+TEST(SpaceRegion, OwnSpin_IsAboutAxesOfTheBodyAsTheyLayAtItsStart) {
+  Case setup = slabsOfACell();
+  for (const char* const axis : {"own_spin_x", "own_spin_y", "own_spin_z"}) {
+    Endpoint& endpoint = setup.endpoints.emplace_back();
+    endpoint.quantity = axis;
+    endpoint.disk = 0;
+  }
+  Cell3d cell;
+  const double half = std::sqrt(0.5);
+  const Eigen::Quaterniond start(half, 0.0, 0.0, half),
+      now = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0) * start;
+  cell.scene.shapes = {roundShape<3>(0.5)};
+  cell.scene.disks.shape = {0, -1};
+  cell.scene.disks.turn = {{start.w(), start.x(), start.y(), start.z()}, noTurn<3>()};
+  cell.scene.disks.moments = {Vec3::Constant(0.1), Vec3::Constant(0.1)};
+  cell.now.turn = {{now.w(), now.x(), now.y(), now.z()}, noTurn<3>()};
+  (*cell.now.spin)[0] = {1.0, 2.0, 3.0};
+  FlowAverages averages(setup, cell.scene);
+  averages.add(cell.now);
+  FlowRun run;
+  averages.describe({}, run);
+  EXPECT_NEAR(seriesEnd(run, "disk_0_own_spin_x"), 1.0, 1e-12);
+  EXPECT_NEAR(seriesEnd(run, "disk_0_own_spin_y"), -2.0, 1e-12);
+  EXPECT_NEAR(seriesEnd(run, "disk_0_own_spin_z"), -3.0, 1e-12);
+}
+
 TEST(SpaceRegion, HasProfilesOverSlabsAndTheStressesOfItsWalls) {
   const Case setup = slabsOfACell();
   const Cell3d cell;

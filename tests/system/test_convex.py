@@ -16,6 +16,7 @@ import crossgrain  # noqa: E402
 AGREE = {
     "tip": ("box2d-impulse", "box2d-v3", "bullet", "havok", "jolt", "ode", "physx", "rapier"),  # moments of inertia, a corner that holds
     "impact-sticks": ("box2d-impulse", "bullet", "chipmunk", "jolt", "physx"),  # restitution and friction of a corner
+    "free-rotation": ("jolt", "physx", "rapier3d"),  # Euler's term, which energy does not show
     "spin-on-the-spot": ("jolt", "rapier3d"),  # friction's torque in space
 }
 
@@ -95,6 +96,15 @@ class Convex(SystemTest):
                 self.assertEqual(set(engines), {row["b"] for row in rows})
                 for row in rows:
                     self.assertLess(abs(float(row["distance"])), 1.0, row)
+
+    @unittest.skipUnless("havok" in INSTALLED, "havok is not installed")
+    def test_body_that_never_turns_over_is_seen(self):
+        """Energy, which Havok keeps, does not show that its Euler term is missing."""
+        done = self.run_program("compare", CASES / "convex/free-rotation.toml", "--engines=havok", "--out", self.out, "--no-causes", "--quiet")
+        self.assert_status(done, FELL_SHORT)
+        rows = {row["endpoint"]: row for row in self.rows("endpoints.csv") if row["kind"] == "closed_form"}
+        self.assertLess(abs(float(rows["energy"]["distance"])), 1.0)
+        self.assertGreater(abs(float(rows["turned_over"]["distance"])), 10.0)
 
     @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
     def test_no_mirror_runs_the_disks_around_bodies(self):
