@@ -62,10 +62,6 @@ std::string nameAndVariant(const Case& setup) {
   return setup.variant.empty() ? setup.name : setup.name + "/" + setup.variant;
 }
 
-bool fits(const Case& setup, const std::string& pattern) {
-  return fitsPattern(setup.name, pattern) || fitsPattern(nameAndVariant(setup), pattern);
-}
-
 bool isComparedWithFirst(const Case& setup) {
   return setup.stability &&
          stabilityMeasure(setup.stability->measure).protocol == StabilityProtocol::againstOriginal;
@@ -77,6 +73,10 @@ bool fitsPattern(const std::string& name, const std::string& pattern) {
   if (pattern.find_first_of("*?[") == std::string::npos)
     return name.find(pattern) != std::string::npos;
   return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
+}
+
+bool fits(const Case& setup, const std::string& pattern) {
+  return fitsPattern(setup.name, pattern) || fitsPattern(nameAndVariant(setup), pattern);
 }
 
 std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::string& pattern) {

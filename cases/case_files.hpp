@@ -25,6 +25,9 @@ std::vector<CaseSummary> casesBelow(const std::filesystem::path& folder);
 /// Whether a name holds a pattern, or fits it where that has a *, ? or [.
 bool fitsPattern(const std::string& name, const std::string& pattern);
 
+/// Whether a case's NAME, or NAME/VARIANT, does.
+bool fits(const Case& setup, const std::string& pattern);
+
 /// The cases whose NAME, or NAME/VARIANT, holds the pattern, or fits it where it has a * or ?. The
 /// first variant of a case stays where others are measured against it (copies_differ).
 /// @throws BadInput if there is none

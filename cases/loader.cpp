@@ -2,11 +2,13 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 #include "cases/assembly_scene.hpp"
+#include "cases/case_files.hpp"
 #include "cases/collision_scene.hpp"
 #include "cases/couette.hpp"
 #include "cases/flow.hpp"
@@ -355,16 +357,48 @@ void warnOfStep(Case& c, const std::filesystem::path& said) {
   }
 }
 
+/// Whether a case has that fault, too.
+bool hasFault(const std::filesystem::path& file, CaseDocument& document, Starts starts,
+              const BadInput& error) {
+  try {
+    readCase(file, document, starts);
+  } catch (const BadInput& its) {
+    return std::string_view(its.what()) == error.what();
+  }
+  return false;
+}
+
+/// Whether a pattern leaves a variant out, and nothing is compared with it.
+bool isLeftOut(const std::filesystem::path& file, const CaseDocument& document,
+               const std::string& only) {
+  Case named;
+  named.name = document.root.at_path("case.name").value_or(file.stem().string());
+  named.variant = document.variant;
+  return !document.root.contains("stability") && !fits(named, only);
+}
+
 std::vector<Case> loadAll(const std::filesystem::path& file,
                           const std::vector<std::string>& overrides, const std::string& fragment,
-                          Starts starts) {
+                          Starts starts, const std::optional<std::string>& only) {
   std::vector<Case> cases;
-  for (CaseDocument& document : readCaseDocuments(file, overrides, fragment)) {
+  std::vector<CaseDocument> documents = readCaseDocuments(file, overrides, fragment);
+  for (auto at = documents.begin(); at != documents.end(); ++at) {
+    CaseDocument& document = *at;
     const toml::node* const step = document.root.at_path("run.dt").node();
     const auto said = step ? fileOf(step->source()) : std::nullopt;
-    Case& c = cases.emplace_back(readCase(file, document, starts));
-    c.overrides = overrides;
-    if (said && c.run.dt) warnOfStep(c, *said);
+    try {
+      Case c = readCase(file, document, starts);
+      c.overrides = overrides;
+      if (said && c.run.dt) warnOfStep(c, *said);
+      cases.push_back(std::move(c));
+    } catch (const BadInput& error) {
+      if (only && isLeftOut(file, document, *only)) continue;
+      const auto sharesIt = [&](CaseDocument& later) {
+        return hasFault(file, later, starts, error);
+      };
+      if (cases.empty() && std::all_of(at + 1, documents.end(), sharesIt)) throw;
+      throw BadInput(fmt::format("{} (variant {})", error.what(), document.variant));
+    }
   }
   return cases;
 }
@@ -387,14 +421,14 @@ std::vector<SectionInfo> headerSections() {
 
 std::vector<Case> loadCase(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides, const std::string& fragment,
-                           Starts starts) {
+                           Starts starts, const std::optional<std::string>& only) {
   try {
-    return loadAll(file, overrides, fragment, starts);
+    return loadAll(file, overrides, fragment, starts, only);
   } catch (const BadInput& error) {
     // A fault of the command line is not the file's, wherever it shows.
     if (overrides.empty() || std::string_view(error.what()).starts_with("--set ")) throw;
     try {
-      loadAll(file, {}, fragment, starts);
+      loadAll(file, {}, fragment, starts, only);
     } catch (const BadInput&) {
       throw error;
     }

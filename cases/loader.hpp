@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,13 @@ enum class Starts { made, notMade };
 /// @param overrides  "key.path=value" each, as after `--set`: the value is TOML, a bare word is a
 ///                   string; they come last and hold for every variant
 /// @param fragment   TOML that is merged after them, as if it were a file that extends this one
+/// @param only       as of selectedCases(): a variant that it leaves out may have faults
 /// @return one case per variant in the file's order, or one case with an empty variant
 /// @throws BadInput  with one line: where, what is there, what would be right
 std::vector<Case> loadCase(const std::filesystem::path& file,
                            const std::vector<std::string>& overrides = {},
-                           const std::string& fragment = {}, Starts starts = Starts::made);
+                           const std::string& fragment = {}, Starts starts = Starts::made,
+                           const std::optional<std::string>& only = {});
 
 /// A case that was loaded, with a fragment of TOML merged in, as if it were a file that extends it.
 /// @throws BadInput for what makes no case

@@ -41,7 +41,8 @@ int record(const CommandLine& line, const std::string& out, const std::optional<
   if (std::filesystem::exists(file))
     throw BadInput(fmt::format(
         "--out {}: this file exists, and a recording is not replaced: name another file", out));
-  std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
+  std::vector<Case> cases =
+      loadCase(line.inputs.front(), line.overrides, {}, Starts::made, line.only);
   if (line.only) cases = selectedCases(cases, *line.only);
   const Case& setup = cases.front();
   if (cases.size() > 1)

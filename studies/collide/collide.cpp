@@ -273,10 +273,10 @@ CollisionVariant variantOf(const CollisionCase& sweep) {
   collisionIn(unjudged).margins.clear();  // nothing is judged by it
   const std::vector<CollisionStart> fine = fineStarts(setup);
   const OracleCurve line = oracleCurve(unjudged, fine);
-  variant.oracle = tableOf(fine, outcomesOf(line));
+  variant.oracle = tableOf(fine, outcomesOf(line), convex);
   if (convex) variant.convex = convexSweep(setup, fine, line, sweep.oracle);
   variant.oracleReason = sweep.oracle.reason;
-  variant.reference = tableOf(sweep.starts, referenceOf(sweep.oracle));
+  variant.reference = tableOf(sweep.starts, referenceOf(sweep.oracle), convex);
   for (std::size_t k = 0; k < sweep.starts.size(); ++k)
     if (const std::string& why = sweep.oracle.unsure[k]; !why.empty() && sweep.oracle.ends[k]) {
       variant.noLimit.push_back(
@@ -303,10 +303,10 @@ std::string collidePlan(const StudyWork& work, const CollideOptions&) {
 }
 
 /// The collisions of a folder's case files, by file name; cases of other kinds are left out.
-std::vector<Case> collisionsOf(const fs::path& folder, const std::vector<std::string>& overrides) {
+std::vector<Case> collisionsOf(const fs::path& folder, const CommandLine& line) {
   std::vector<Case> variants;
   for (const fs::path& file : caseFilesIn(folder))
-    for (Case& setup : loadCase(file, overrides))
+    for (Case& setup : loadCase(file, line.overrides, {}, Starts::made, line.only))
       if (isCollision(setup)) variants.push_back(std::move(setup));
   requireOwnNames(variants);
   if (variants.empty()) throw BadInput(folder.string() + ": none of its cases is a collision");
@@ -325,14 +325,15 @@ CaseHead headOfFolder(const fs::path& folder, const std::vector<Case>& variants)
 
 std::vector<Case> casesToCollide(const CommandLine& line, CollideOptions&) {
   const fs::path& input = line.inputs.front();
-  std::vector<Case> variants = fs::is_directory(input) ? collisionsOf(input, line.overrides)
-                                                       : loadCase(input, line.overrides);
+  std::vector<Case> variants = fs::is_directory(input)
+                                   ? collisionsOf(input, line)
+                                   : loadCase(input, line.overrides, {}, Starts::made, line.only);
+  if (line.only) variants = selectedCases(variants, *line.only);
   if (!isCollision(variants.front()))
     throw BadInput(
         fmt::format("{}: collide takes two bodies that meet once, and this scene has no such pair; "
                     "crossgrain {} can run it",
                     input.string(), hasFlow(variants.front()) ? "compare" : "stability"));
-  if (line.only) variants = selectedCases(variants, *line.only);
   reportKeysWithoutUse(variants, "collide", line.json ? stderr : stdout);
   return variants;
 }

@@ -55,6 +55,29 @@ TEST_F(LoaderMerging, Variants_GiveOneCaseEachInOrder) {
   EXPECT_EQ(cases[1].law.conventions.tension, Tension::cut);
 }
 
+TEST_F(LoaderMerging, FaultOfOneVariant_NamesItAndSparesThoseThatAreChosen) {
+  write("v.toml", soundCase +
+                      "[[variants]]\nname = \"slow\"\ncell.omega = 0.1\n"
+                      "[[variants]]\nname = \"wrong\"\ncell.omega = \"x\"\n"
+                      "[[variants]]\nname = \"fast\"\ncell.omega = 2.0\n");
+  const auto fault = [](const std::vector<std::string>& overrides,
+                        const std::optional<std::string>& only) -> std::string {
+    try {
+      loadCase("v.toml", overrides, {}, Starts::made, only);
+    } catch (const BadInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_TRUE(fault({}, {}).ends_with("(variant wrong)")) << fault({}, {});
+  EXPECT_TRUE(fault({}, "wrong").ends_with("(variant wrong)"));
+  EXPECT_EQ(fault({}, "fast"), "");
+  EXPECT_EQ(loadCase("v.toml", {}, {}, Starts::made, "fast").size(), 2u);
+  // Of all variants: none is named.
+  EXPECT_EQ(fault({"law.kn=-1"}, {}).find("variant"), std::string::npos)
+      << fault({"law.kn=-1"}, {});
+}
+
 TEST_F(LoaderMerging, Overrides_ComeLast_TomlOrBareWords) {
   write("v.toml", soundCase + "[[variants]]\nname = \"slow\"\ncell.omega = 0.1\n");
   const Case c = loadCase("v.toml", {"cell.omega=0.2", "law.tension=cut", "run.mirrors=false",

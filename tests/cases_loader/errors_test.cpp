@@ -77,7 +77,7 @@ TEST_F(LoaderErrors, NumberOutOfRange_SaysTheRange) {
       {plus("[engines.x]\nrate = inf\n"),
        "case.toml:25:8: engines.x.rate = inf: is infinite: must be a finite number"},
       {collision(10, "vn = [0.1, 0]"),
-       "case.toml:10:12: collision.vn[1] = 0: must be > 0 m/s, else the disks never meet"},
+       "case.toml:10:12: collision.vn[1] = 0: must be > 0 m/s, else the two never meet"},
       {collision(9, "psi = { from = 0, to = 4, count = 1 }"),
        "case.toml:9:35: collision.psi.count = 1: must be in [2, 10000]"},
       {collision(9, "angle = 90"),
@@ -253,7 +253,7 @@ TEST_F(LoaderErrors, Collision_OfAWall_HasNeitherItsSizeNorItsSpin) {
       {collision(9, "psi = { from = 4, to = 4, count = 3 }"),
        "case.toml:9:24: collision.psi.to = 4: must be > 4 (from)"},
       {collision(12, "mass = 0.275e-3\nstart_phase = 1"),
-       "case.toml:13:15: collision.start_phase = 1: must be in [0, 1): from 0 on, else the disks "
+       "case.toml:13:15: collision.start_phase = 1: must be in [0, 1): from 0 on, else the two "
        "overlap at the start"},
   });
 }
