@@ -262,30 +262,29 @@ ConvexTouchOf<D> convexTouch(const Case& setup, const CollisionStart& start) {
 template ConvexTouchOf<2> convexTouch<2>(const Case&, const CollisionStart&);
 template ConvexTouchOf<3> convexTouch<3>(const Case&, const CollisionStart&);
 
-double freeFlight(const Case& setup, const CollisionStart& start) {
-  return inDimensionOf(setup, [&]<int D>() {
-    const ConvexTouchOf<D> touch = convexTouch<D>(setup, start);
-    const ConvexImpact<D> impact = convexImpact(touch.impact);
-    const auto size = [](const SpinOf<D>& spin) {
-      if constexpr (D == 2)
-        return std::abs(spin);
-      else
-        return spin.norm();
-    };
-    double fastest = 0.0;  // of one body's points against the other's
-    const auto take = [&](const ImpactOutcome<D>& after) {
-      const CollisionEnd end = convexEnd<D>(touch.impact, after.velocity, after.spin);
-      const double out = end.outOfPlane ? end.outOfPlane->psi : 0.0;
-      fastest = std::max(
-          fastest, start.vn * std::hypot(end.en, end.psi, out) +
-                       2.0 * touch.bodies.radius[0] * (size(after.spin[0]) + size(after.spin[1])));
-    };
-    if (impact.newton) take(*impact.newton);
-    take(impact.poisson);
-    take(impact.stronge);
-    return touch.next / fastest;
-  });
+template <int D>
+double freeFlight(const ConvexTouchOf<D>& touch, const ConvexImpact<D>& impact, double speed) {
+  const auto size = [](const SpinOf<D>& spin) {
+    if constexpr (D == 2)
+      return std::abs(spin);
+    else
+      return spin.norm();
+  };
+  double fastest = 0.0;  // of one body's points against the other's
+  const auto take = [&](const ImpactOutcome<D>& after) {
+    const CollisionEnd end = convexEnd<D>(touch.impact, after.velocity, after.spin);
+    const double out = end.outOfPlane ? end.outOfPlane->psi : 0.0;
+    fastest = std::max(
+        fastest, speed * std::hypot(end.en, end.psi, out) +
+                     2.0 * touch.bodies.radius[0] * (size(after.spin[0]) + size(after.spin[1])));
+  };
+  if (impact.newton) take(*impact.newton);
+  take(impact.poisson);
+  take(impact.stronge);
+  return touch.next / fastest;
 }
+template double freeFlight(const ConvexTouchOf<2>&, const ConvexImpact<2>&, double);
+template double freeFlight(const ConvexTouchOf<3>&, const ConvexImpact<3>&, double);
 
 Scene collisionScene(const Case& setup, const std::vector<CollisionStart>& starts, double dt) {
   if (setup.dimension != 2)

@@ -28,9 +28,11 @@ struct ConvexTouchOf {
 template <int D>
 ConvexTouchOf<D> convexTouch(const Case& setup, const CollisionStart& start);
 
-/// How long after the touch convex bodies may touch elsewhere, at the earliest [s], if the impact
-/// is that of any of the oracle's hypotheses.
-double freeFlight(const Case& setup, const CollisionStart& start);
+/// How long after the touch convex bodies may touch elsewhere, at the earliest [s].
+/// @param impact  of the touch, which ends as any of its hypotheses says
+/// @param speed   of approach [m/s]
+template <int D>
+double freeFlight(const ConvexTouchOf<D>& touch, const ConvexImpact<D>& impact, double speed);
 
 /// Steps after which velocities of rigid bodies are read: what an engine needs to find an impact
 /// and bring it to an end. And the time of it, from the scene's start [s].

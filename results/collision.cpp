@@ -81,6 +81,12 @@ void SweepCount::add(const CollisionCurve& curve) {
   beyondLimits += ran && verdict == Verdict::fail;
   notJudged += verdict == Verdict::notMeasured;
   refused += verdict == Verdict::notApplicable;
+  if (!ran || verdict == Verdict::notMeasured) return;
+  const CollisionPoints& table = curve.points;
+  points += table.size();
+  const bool most = table.mostAreKnown(), byScene = curve.score.verdict != Verdict::notMeasured;
+  for (std::size_t row = 0; row < table.size(); ++row)
+    judgedPoints += !byScene || (table.isKnown(row) && (most || !table.shouldPart(row)));
 }
 
 SweepCount countOf(const CollideResults& results) {
@@ -94,13 +100,18 @@ SweepCount countOf(const CollideResults& results) {
 
 std::string nothingJudged(const CollideResults& results) {
   if (countOf(results).judged() > 0) return {};
-  bool measured = false, noLimit = false, rounded = false;
+  bool measured = false, outcome = false, noLimit = false, rounded = false;
+  bool convex = false, mostKnown = false;
   std::string noOracle;
   for (const CollisionVariant& variant : results.variants) {
     if (noOracle.empty()) noOracle = variant.oracleReason;
     noLimit = noLimit || !variant.noLimit.empty();
+    convex = convex || variant.convex;
     for (const CollisionCurve& curve : variant.curves) {
       rounded = rounded || curve.score.isRounded();
+      for (std::size_t k = 0; k < curve.points.size(); ++k)
+        outcome = outcome || curve.points.parted(k);
+      mostKnown = mostKnown || curve.points.mostAreKnown();
       for (const CollisionQuantity& quantity : scoredQuantities())
         measured = measured || curve.score.of[quantity.id];
     }
@@ -108,13 +119,14 @@ std::string nothingJudged(const CollideResults& results) {
   if (rounded)
     return "what is beyond a limit single precision can do by rounding places; a faster approach "
            "or a larger time step is needed to tell";
-  if (measured) return "the case has no [collision.margins] for what was measured";
+  if (measured && mostKnown) return "the case has no [collision.margins] for what was measured";
   if (!noOracle.empty()) return "there is no oracle to judge by: " + noOracle;
-  const auto isConvex = [](const CollisionVariant& variant) { return variant.convex.has_value(); };
-  if (noLimit && std::ranges::any_of(results.variants, isConvex))
-    return "no point of the sweep has an outcome that all hypotheses of restitution share, and the "
-           "case has no margin of energy_gained";
-  if (noLimit) return "the law has no limit of small time steps at any point of the sweep";
+  if (noLimit && outcome && convex)
+    return "at most points of the sweep Newton's, Poisson's and Stronge's restitution differ, and "
+           "the case has no margin of energy_gained";
+  if (noLimit && outcome)
+    return "at most points of the sweep there is no reference: the law has no limit of small time "
+           "steps there, or jumps beside it";
   return "no engine has an outcome to judge";
 }
 

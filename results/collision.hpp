@@ -185,6 +185,8 @@ bool runsBesideItsPeer(const CollideResults& results, const std::string& engine)
 /// Sweeps by how they came out.
 struct SweepCount {
   int held = 0, modelDifference = 0, beyondLimits = 0, notJudged = 0, refused = 0, failed = 0;
+  /// Of sweeps that are judged: points, and those judged by more than a gain of energy.
+  std::size_t points = 0, judgedPoints = 0;
 
   void add(const CollisionCurve& curve);
   int judged() const { return held + modelDifference + beyondLimits; }

@@ -73,12 +73,20 @@ struct CollisionPoints : CollisionTable {
   std::vector<std::string> reason;  ///< why there is no reference to judge by; else empty
   std::vector<bool> sticks;         ///< which pairs do not part by the oracle; empty: none
 
+  /// Whether there is a reference to judge a row by.
+  bool isKnown(std::size_t row) const { return row >= reason.size() || reason[row].empty(); }
   bool parted(std::size_t row) const { return at(QuantityId::psiF, row).has_value(); }
   bool shouldPart(std::size_t row) const { return row >= sticks.size() || !sticks[row]; }
+  /// Half of them, which scores ask for.
+  bool mostAreKnown() const {
+    std::size_t known = 0;
+    for (std::size_t row = 0; row < size(); ++row) known += isKnown(row);
+    return known > 0 && 2 * known >= size();
+  }
   /// As files have it: a pair that parted may have no limit to be compared with.
   std::string status(std::size_t row) const {
     if (!parted(row)) return "not parted";
-    if (row >= reason.size() || reason[row].empty()) return "parted";
+    if (isKnown(row)) return "parted";
     return orientation.empty() ? "no limit" : "not judged";
   }
 

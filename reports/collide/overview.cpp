@@ -139,6 +139,13 @@ OverviewCell schemeCell(const std::vector<CaseGroup>& groups, const std::string&
   return cell;
 }
 
+/// ", on 20 of 33 points"; empty where all are judged.
+std::string pointsWords(const SweepCount& count) {
+  if (count.judgedPoints == count.points) return {};
+  if (count.judgedPoints == 0) return ", by the gain of energy alone";
+  return fmt::format(", on {} of {} points", count.judgedPoints, count.points);
+}
+
 /// How many sweeps pass: refused ones need a law that the engine lacks.
 OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& engine,
                         bool besidePeer) {
@@ -146,13 +153,6 @@ OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& e
   for (const CaseGroup& group : groups)
     variants.insert(variants.end(), group.variants.begin(), group.variants.end());
   const Tally all = tallyOf(variants, engine.name);
-  std::ptrdiff_t unknown = 0;
-  forCurves(groups, engine.name,
-            [&](const CollisionVariant&, const CollisionCurve& curve, const std::string&,
-                const std::string&) {
-              for (std::size_t k = 0; k < curve.points.size(); ++k)
-                unknown += curve.points.status(k) == "no limit";
-            });
   OverviewCell cell{Verdict::notMeasured, {}, "sweeps", {}, {}, "matrix"};
   if (all.refused > 0) cell.words = fmt::format("{} refused", all.refused);
   if (all.failed > 0)
@@ -166,7 +166,7 @@ OverviewCell sweepsCell(const std::vector<CaseGroup>& groups, const EngineRow& e
   }
   cell.value = all.held;
   cell.shown = fmt::format("{} of {}", all.held, all.judged());
-  if (unknown > 0) cell.shown += fmt::format(", {} points not judged", unknown);
+  cell.shown += pointsWords(all);
   const int faults = (besidePeer ? 0 : all.beyondLimits) + all.failed;
   cell.verdict = faults > 0                                   ? Verdict::fail
                  : all.modelDifference + all.beyondLimits > 0 ? Verdict::modelDifference
@@ -298,6 +298,12 @@ std::string joinedParts(const std::vector<std::pair<std::string_view, std::strin
 
 std::string whoPasses(const CollideResults& results) {
   const std::vector<EngineCount> tallies = countsOf(results);
+  SweepCount passed;
+  for (const EngineCount& one : tallies) {
+    if (one.held == 0 || one.held < one.judged()) continue;
+    passed.points += one.points;
+    passed.judgedPoints += one.judgedPoints;
+  }
   Names ownLaw, unjudged;
   bool inPart = false;
   for (const EngineCount& one : tallies) {
@@ -306,7 +312,8 @@ std::string whoPasses(const CollideResults& results) {
     if (one.judged() == 0) unjudged.push_back(one.engine);
   }
   const std::string sentence = joinedParts(
-      {{inPart ? "passed every sweep that was judged" : "passed every sweep",
+      {{(inPart ? "passed every sweep that was judged" : "passed every sweep") +
+            pointsWords(passed),
         listedShortly(passAll(tallies), mostEngines)},
        {"model difference: true to the law that they declare", listedShortly(ownLaw, mostEngines)},
        {"failed", failedInWords(tallies)},
@@ -325,8 +332,8 @@ std::string collideNextStep(const CollideResults& results) {
   const SweepCount count = countOf(results);
   if (count.failed > 0) return "Next: see why sweeps failed, in the table of scores.";
   if (count.beyondLimits > 0)
-    return "Next: see whether the failures shrink with the time step; if not, they are a fault or "
-           "another law.";
+    return "Next: see whether the failures shrink with the time step, or of rigid contacts with "
+           "more iterations; if not, they are a fault or another law.";
   if (count.modelDifference == 0) {
     const std::vector<EngineCount> tallies = countsOf(results);
     if (std::ranges::any_of(tallies, [](const EngineCount& one) { return one.refused > 0; }))

@@ -6,7 +6,8 @@ namespace crossgrain::inline studies {
 
 ConvexOutcomes convexOutcomes(const Case& setup, const CollisionStart& start) {
   return inDimensionOf(setup, [&]<int D>() {
-    const ConvexImpactStart<D> before = convexTouch<D>(setup, start).impact;
+    const ConvexTouchOf<D> touch = convexTouch<D>(setup, start);
+    const ConvexImpactStart<D>& before = touch.impact;
     const ConvexImpact<D> impact = convexImpact(before);
     const auto end = [&](const ImpactOutcome<D>& after) {
       return convexEnd<D>(before, after.velocity, after.spin);
@@ -14,7 +15,12 @@ ConvexOutcomes convexOutcomes(const Case& setup, const CollisionStart& start) {
     const auto name = [](const ImpactOutcome<D>& after) {
       return std::string(impactKindNames[static_cast<std::size_t>(after.kind)]);
     };
-    ConvexOutcomes all{{}, end(impact.poisson), end(impact.stronge), impact.judged, ""};
+    ConvexOutcomes all{{},
+                       end(impact.poisson),
+                       end(impact.stronge),
+                       impact.judged,
+                       "",
+                       freeFlight(touch, impact, start.vn)};
     if (impact.newton) all.newton = end(*impact.newton);
     all.kind = name(impact.poisson);
     if (name(impact.stronge) != all.kind) all.kind += " or " + name(impact.stronge);
@@ -88,8 +94,8 @@ ConvexSweep convexSweep(const Case& setup, const std::vector<CollisionStart>& st
     poisson.emplace_back(outcomeOf(each.poisson));
     stronge.emplace_back(outcomeOf(each.stronge));
   }
-  convex.poisson = tableOf(starts, poisson);
-  convex.stronge = tableOf(starts, stronge);
+  convex.poisson = tableOf(starts, poisson, true);
+  convex.stronge = tableOf(starts, stronge, true);
   for (const ConvexOutcomes& each : sweep.convex) convex.kinds.push_back(each.kind);
   return convex;
 }

@@ -187,14 +187,14 @@ std::optional<std::vector<std::optional<double>>> columnOf(const CollisionQuanti
 
 }  // namespace
 
-CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes) {
+CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes,
+                       bool convex) {
   CollisionTable table;
   for (const CollisionStart& start : starts) {
     table.psi.push_back(start.psi);
     table.vn.push_back(start.vn);
   }
-  const auto isConvex = [](const auto& outcome) { return outcome && outcome->end.convex; };
-  if (std::ranges::any_of(outcomes, isConvex))
+  if (convex)
     for (const CollisionStart& start : starts) {
       table.orientation.push_back(shortened(start.orientation * 180.0 / std::numbers::pi));
       table.spin.push_back(start.spin);
@@ -444,7 +444,7 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
   const bool convex = collisionIn(setup).isConvex();
   OracleCurve oracle = convex ? limit : atStep(limit, setup, starts, step);
   for (std::size_t k = 0; convex && k < starts.size(); ++k)
-    if (freeFlight(setup, starts[k]) < sweepEnd(setup, dt, effective.dt))
+    if (oracle.convex[k].freeFlight < sweepEnd(setup, dt, effective.dt))
       oracle.unsure[k] = "in steps of the engine's own a second corner meets too soon";
   int missing = 0;
   std::vector<bool> sticks;
@@ -456,14 +456,14 @@ CollisionCurve sweepIn(Engine& engine, const EngineEntry& entry, const Case& set
     curve.reason = fmt::format("{} pairs did not {}", missing, convex ? "meet" : "part");
   curve.effective = effective;
   curve.stats = engine.stats();
-  static_cast<CollisionTable&>(curve.points) = tableOf(starts, found);
+  static_cast<CollisionTable&>(curve.points) = tableOf(starts, found, convex);
   curve.points.reason = oracle.unsure;
   if (std::ranges::find(sticks, true) != sticks.end()) curve.points.sticks = sticks;
   const Outcomes reference = referenceOf(oracle);
   if (const auto unknown = std::ranges::count_if(reference, [](const auto& one) { return !one; });
       unknown > 0)
-    curve.reason += fmt::format("{}{} of {} points have no reference", missing > 0 ? "; " : "",
-                                unknown, reference.size());
+    curve.reason += fmt::format("{}{} of {} points {}", missing > 0 ? "; " : "", unknown,
+                                reference.size(), convex ? "are not judged" : "have no reference");
   const auto law = declaredLaw(can, asRun, effective, collidingPair(setup).reducedMass());
   const bool soft = law && law->soft();  // no place enters an impulse
   curve.score =

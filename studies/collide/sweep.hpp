@@ -27,8 +27,9 @@ LawDescription lawDifference(const ContactLaw& law, const ContactLaw& from);
 struct ConvexOutcomes {
   std::optional<CollisionEnd> newton;  ///< absent where no impulse satisfies it
   CollisionEnd poisson, stronge;
-  bool judged = false;  ///< all three agree
-  std::string kind;     ///< of impactKindNames; where they end in two of them, both
+  bool judged = false;      ///< all three agree
+  std::string kind;         ///< of impactKindNames; where they end in two of them, both
+  double freeFlight = 0.0;  ///< [s]
 };
 
 /// Outcome of the oracle for each start; absent where it has no outcome.
@@ -77,7 +78,9 @@ Outcomes referenceOf(const OracleCurve& oracle);
 
 /// Ψ_i, v_n and all that is known of the outcomes, with as many digits as files have. Of the
 /// oracle's, `noLimit` marks points that have no limit of small time steps.
-CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes);
+/// @param convex  with orientations and spins before, also where nothing is known of the outcome
+CollisionTable tableOf(const std::vector<CollisionStart>& starts, const Outcomes& outcomes,
+                       bool convex);
 
 /// Outcome of each collision of a sweep, watched contact by contact for overlaps and work.
 /// @throws EngineFailure, UnsupportedScene, BadInput

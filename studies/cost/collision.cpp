@@ -25,7 +25,8 @@ std::vector<std::optional<double>> numbersOf(const CollisionTable& table, Quanti
 /// Unit of that quantity's errors, as in `collide` [its unit].
 double unitOf(const PairCurve& pair, QuantityId quantity) {
   std::vector<double> known;
-  for (const auto& number : numbersOf(tableOf(pair.starts, referenceOf(pair.oracle)), quantity))
+  for (const auto& number :
+       numbersOf(tableOf(pair.starts, referenceOf(pair.oracle), /*convex=*/false), quantity))
     if (number) known.push_back(*number);
   return errorUnit(known).value;
 }
@@ -34,7 +35,7 @@ double unitOf(const PairCurve& pair, QuantityId quantity) {
 CollisionNumbers numbersOf(const CollisionReference& reference, const std::vector<Outcomes>& of) {
   CollisionNumbers numbers;
   for (std::size_t p = 0; p < reference.pairs.size(); ++p) {
-    const CollisionTable table = tableOf(reference.pairs[p].starts, of[p]);
+    const CollisionTable table = tableOf(reference.pairs[p].starts, of[p], /*convex=*/false);
     for (const QuantityId quantity : collisionMeasures)
       std::ranges::copy(numbersOf(table, quantity),
                         std::back_inserter(numbers[std::string(collisionQuantity(quantity).name)]));

@@ -169,6 +169,39 @@ TEST(CollideReport, NothingJudged_IsNoSuccess) {
   EXPECT_EQ(nothingJudged(sample::collideResults()), "");
 }
 
+/// Points without a reference count in no pass, and are no lack of margins.
+TEST(CollideReport, PassOnFewPoints_SaysOnHowMany) {
+  CollideResults results = sample::collideResults();
+  const auto leaveUnjudged = [&](std::size_t count) {
+    for (CollisionVariant& variant : results.variants)
+      for (CollisionCurve& curve : variant.curves) {
+        curve.points.reason.assign(curve.points.size(), "");
+        std::fill_n(curve.points.reason.begin(), std::min(count, curve.points.size()),
+                    "hypotheses differ");
+      }
+  };
+  const auto passed = [&] { return collideOverview(results).conclusion.front(); };
+  EXPECT_TRUE(has(passed(), "Passed every sweep: grain")) << passed();
+  leaveUnjudged(6);  // of 16
+  EXPECT_TRUE(has(passed(), "Passed every sweep, on 60 of 96 points: grain")) << passed();
+  EXPECT_EQ(rowNamed(collideOverview(results), "grain").cells[0].shown,
+            "6 of 6, on 60 of 96 points");
+  leaveUnjudged(9);
+  EXPECT_TRUE(has(passed(), "Passed every sweep, by the gain of energy alone: grain")) << passed();
+  for (CollisionVariant& variant : results.variants) {
+    variant.noLimit.emplace_back();
+    variant.convex.emplace();
+    for (CollisionCurve& curve : variant.curves) {
+      curve.score.verdict = Verdict::notMeasured;
+      curve.score.of[QuantityId::psiF]->held.reset();
+      curve.status = Status::finished;
+    }
+  }
+  EXPECT_EQ(nothingJudged(results),
+            "at most points of the sweep Newton's, Poisson's and Stronge's restitution differ, and "
+            "the case has no margin of energy_gained");
+}
+
 TEST(CollideReport, OwnSchemeBeyondItsLimit_Fails) {
   CollideResults results = sample::collideResults();
   SchemeScore& own = results.variants[0].curves[0].ownScheme.emplace();

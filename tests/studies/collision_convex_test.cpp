@@ -201,6 +201,15 @@ TEST(ConvexCollisions, NewtonsAndPoissonsEngine_BothPassWhereTheyAgree) {
   EXPECT_FALSE(one.causes || one.declared);
 }
 
+TEST(ConvexCollisions, NothingJudged_InputsStay) {
+  const Case setup = variantOf("convex-box", "oblique");
+  const auto starts = collisionStarts(setup);
+  const CollisionTable table = tableOf(starts, Outcomes(starts.size()), true);
+  ASSERT_EQ(table.orientation.size(), starts.size());
+  EXPECT_NEAR(table.orientation.front(), 30.0, 1e-9);
+  EXPECT_EQ(table.spin.size(), starts.size());
+}
+
 TEST(ConvexCollisions, ImpulseAtTheCentre_Fails) {
   ImpactEngine engine(newtons, [](ConvexImpactStart<2>& start) { start.body[0].arm.setZero(); });
   const CollisionCurve curve = sweptBy(variantOf("convex-box", "orientation-smooth"), engine);
