@@ -37,7 +37,7 @@ Key<Collision> later(const char* name, const char* unit, const char* standard, c
 
 const Section<Collision>& collisionKeys() {
   constexpr const char* users = "calibrate baseline collide record stability";
-  const Range speeds = positive("m/s", ", else the disks never meet");
+  const Range speeds = positive("m/s", ", else the two never meet");
   static const Section<Collision> section(
       {.name = "collision",
        .kinds = "collision",
@@ -157,8 +157,8 @@ const Section<Collision>& collisionKeys() {
            Range{.low = 0.0,
                  .high = 1.0,
                  .highOpen = true,
-                 .reason = ": from 0 on, else the disks overlap at the start"},
-           "the disks touch this fraction of a step after a step")});
+                 .reason = ": from 0 on, else the two overlap at the start"},
+           "the two touch this fraction of a step after a step")});
   return section;
 }
 
@@ -289,8 +289,10 @@ void checkConvexStarts(const Reader& in, const Case& c) {
                           : in.has("quaternion") ? "quaternion"
                                                  : "shape";
   for (const CollisionStart& start : collisionStarts(c)) {
-    const auto [next, free] = inDimensionOf(
-        c, [&]<int D>() { return std::pair(convexTouch<D>(c, start).next, freeFlight(c, start)); });
+    const auto [next, free] = inDimensionOf(c, [&]<int D>() {
+      const ConvexTouchOf<D> touch = convexTouch<D>(c, start);
+      return std::pair(touch.next, freeFlight(touch, convexImpact(touch.impact), start.vn));
+    });
     const double degrees = start.orientation * 180.0 / std::numbers::pi;
     in.check(next > 1e-6 * collision.radius[0], key,
              "at orientation {:.6g} a face or an edge meets flat: no single corner is the nearest",

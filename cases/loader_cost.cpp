@@ -60,9 +60,9 @@ std::vector<Key<Cost>> costTable() {
           "steps of averages over whole runs of all packings"),
       key("average_reference", &Cost::averageReference, steps,
           "steps of the ensemble that they are compared with"),
-      key("rigid_steps", &Cost::rigidSteps, positive(),
+      key("rigid_steps", &Cost::rigidSteps, between(1e-3, 1000),
           "steps of rigid bodies in the case's own step: 0.5 is twice that, 2 is half of it"),
-      key("iterations", &Cost::iterations, positive(),
+      key("iterations", &Cost::iterations, between(1e-3, 1000),
           "of rigid bodies: what engines declare as iterations, in units of the number that they "
           "run with; at every step that makes them no more than the largest of both lists"),
       key("tangential", &Cost::tangential,

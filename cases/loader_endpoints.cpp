@@ -34,7 +34,8 @@ const Section<EndpointInput>& endpointsKeys() {
        need("quantity", &Endpoint::quantity, any,
             "a field of `profiles.csv`, or a quantity of `crossgrain list endpoints`"),
        key("disk", &Endpoint::disk, between(0, mostDisks),
-           "of which `quantity` is `x` …, `velocity_x` …, `spin` (in space `spin_x` …), of a convex "
+           "of which `quantity` is `x` …, `velocity_x` …, `spin` (in space `spin_x` …), of a "
+           "convex "
            "body `angle` and, in space, `own_spin_x` …; from 0"),
        key("wall", &Endpoint::wall, between(0, mostDisks),
            "of `[[assembly.walls]]`, from 0, of which `quantity` is `normal_force`, `force_x` …: "

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "adapters/written_shape.hpp"
 #include "cases/loader_sections.hpp"
 
 namespace crossgrain::inline cases {
@@ -105,10 +106,11 @@ TurnOf<D> givenTurn(const Reader& in, const DisksInput<D>& group) {
     if (!in.has("quaternion")) return noTurn<3>();
     const std::vector<double>& q = group.quaternion;
     in.check(q.size() == 4, "quaternion", "must be four numbers, [w, x, y, z]");
-    const Eigen::Quaterniond given(q[0], q[1], q[2], q[3]), unit = given.normalized();
-    in.check(isUnit(given), "quaternion", "must be [w, x, y, z] of length 1, which is {:g}",
+    const Eigen::Quaterniond given(q[0], q[1], q[2], q[3]);
+    const auto turn = writtenTurn(given);
+    in.check(turn.has_value(), "quaternion", "must be [w, x, y, z] of length 1, which is {:g}",
              given.norm());
-    return {unit.w(), unit.x(), unit.y(), unit.z()};
+    return *turn;
   }
 }
 
@@ -143,11 +145,10 @@ void makeConvex(const Reader& in, DisksInput<D>& group) {
            D == 2 ? "one number, about z" : "[J_x, J_y, J_z]");
   for (std::size_t k = 0; k < numbers; ++k)
     group.moments[D == 2 ? 2 : static_cast<int>(k)] = given[k];
-  // No part of a body is beyond its reach, and each two moments are more than the third.
-  const double most = group.mass * group.radius * group.radius;
-  in.check(*std::ranges::max_element(given) <= most, "inertia",
-           "is more than a body of {:g} kg that reaches {:g} m can have, {:g} kg m²", group.mass,
-           group.radius, most);
+  const std::string fault =
+      inertiaFault(*std::ranges::max_element(given), group.mass, group.radius);
+  in.check(fault.empty(), "inertia", "{}", fault);
+  // Each two moments are more than the third.
   in.check(D == 2 || group.moments.sum() >= 2.0 * group.moments.maxCoeff(), "inertia",
            "is of no body: one moment is more than the other two together");
 }

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "cases/loader_sections.hpp"
-#include "cases/packing.hpp"
+#include "cases/start_file.hpp"
 
 namespace crossgrain::inline cases {
 namespace {

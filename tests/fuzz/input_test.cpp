@@ -11,7 +11,7 @@
 
 #include "cases/case_files.hpp"
 #include "cases/loader.hpp"
-#include "cases/packing.hpp"
+#include "cases/start_file.hpp"
 #include "results/conformance.hpp"
 #include "results/schema.hpp"
 #include "results/stability.hpp"
