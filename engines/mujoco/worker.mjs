@@ -61,7 +61,7 @@ serve(new MujocoEngine({
     setting('impedance', 1e-4, 'd of its contacts: 1e-4 springs that know nothing of each other, 0.9999 constraints',
             {least: 1e-4, most: 0.9999}),
     setting('solver', 'CG', 'CG or Newton', {choices: ['CG', 'Newton']}),
-    setting('iterations', 100, 'most of its solver in a step', {least: 1, most: 1e6, whole: true}),
+    setting('iterations', 100, 'most of its solver in a step', {least: 1, most: 1e6, whole: true, role: 'iterations'}),
     setting('tolerance', 1e-14, 'of its solver', {least: 0, most: 1}),
   ],
 }, MujocoWorld));

@@ -82,6 +82,18 @@ const CostPoint* pointAt(const CostResults& results, std::optional<std::size_t> 
   return place && *place < results.points.size() ? &results.points[*place] : nullptr;
 }
 
+/// Settings of an engine with a measured error, of a kind or of all; without an engine, of all
+/// together.
+std::size_t settingsTried(const CostResults& results, const std::string& engine,
+                          std::optional<CostKind> kind = {}) {
+  std::set<std::tuple<std::string, std::string, std::string>> settings;
+  for (const CostPoint& point : results.points)
+    if (point.measured() && (engine.empty() || point.engine == engine) &&
+        (!kind || point.kind == *kind))
+      settings.emplace(point.engine, point.knob, point.setting);
+  return settings.size();
+}
+
 /// Of a cell, or of advice.
 const CostModel* modelOf(const CostResults& results, const auto& of) {
   return of.model && *of.model < results.models.size() ? &results.models[*of.model] : nullptr;
@@ -93,11 +105,12 @@ std::string modelText(const CostResults& results, const CostModel& model) {
                      intervalText(results, model.error, model.low, model.high));
 }
 
-/// "a tie with t_c/200, skin = 0.001": settings of which it is not known whether they take less.
+/// "a tie with t_c/200 or skin = 0.001, dt/2": settings of which it is not known whether they take
+/// less.
 std::string tieText(const std::vector<TiedSetting>& ties) {
   Names names;
   for (const TiedSetting& one : ties) names.push_back(settingText(one.knob, one.setting));
-  return names.empty() ? "" : fmt::format("a tie with {}", fmt::join(names, ", "));
+  return names.empty() ? "" : fmt::format("a tie with {}", fmt::join(names, " or "));
 }
 
 /// "1.2 ms (1.1 ms to 1.3 ms)"
@@ -162,9 +175,11 @@ std::string asToml(const Advice& one, const CostResults& results) {
   if (!one.setting.empty()) {
     std::vector<std::string_view> kinds;
     for (const CostKind kind : one.kinds) kinds.push_back(nameOf(kind));
-    text += reached                               ? " by "
-            : one.verdict == Verdict::notMeasured ? " far enough; the best so far is "
-                                                  : "; the best is ";
+    text += reached ? " by "
+            : one.verdict == Verdict::notMeasured
+                ? " far enough; the best so far is "
+                : fmt::format(", the best of {} is ",
+                              counted(settingsTried(results, one.engine), "setting"));
     text += speaksForItself(one.knob) || one.setting.starts_with(one.knob)
                 ? one.setting
                 : one.knob + " " + one.setting;
@@ -276,21 +291,27 @@ OverviewCell adviceCell(const CostResults& results, const Advice& advice) {
     cell.words += ", whatever the step";
   } else if (point && point->counted()) {
     show(*point->counted(), point->measure);
+    cell.words +=
+        fmt::format("; the best of {}", counted(settingsTried(results, advice.engine), "setting"));
   }
   return cell;
 }
 
-/// "1 %: grain with t_c/200 (0.01 ms; 1.2 s (1.1 s to 1.3 s) for a second of the scene)"
+/// "1 %: grain with t_c/200 (0.01 ms; 1.2 s (1.1 s to 1.3 s) for a second of the scene)"; of ties
+/// all.
 std::string cheapestOf(const CostResults& results, double target) {
   Names names;
   for (const Advice& one : results.advice)
     if (one.target == target && one.cheapest)
-      names.push_back(fmt::format("{} with {} (step {}; {} for {})", one.engine,
+      names.push_back(fmt::format("{} with {} (step {}; {} for {}{})", one.engine,
                                   settingText(one.knob, one.setting), stepText(results, one),
-                                  timeText(one), timeUnit(*one.costKind())));
-  return fmt::format(
-      "{}: {}", wantText(results, target),
-      names.empty() ? "no setting that was tried" : fmt::format("{}", fmt::join(names, " or ")));
+                                  timeText(one), timeUnit(*one.costKind()),
+                                  one.ties.empty() ? "" : "; " + tieText(one.ties)));
+  const std::string found = names.empty()
+                                ? fmt::format("no setting ({} tried)", settingsTried(results, ""))
+                            : names.size() == 1 ? names.front()
+                                                : fmt::format("a tie of {}", listed(names));
+  return fmt::format("{}: {}", wantText(results, target), found);
 }
 
 /// The accuracies of the first matrix: those of the cells and the one asked for, falling.
@@ -379,11 +400,17 @@ Overview costOverview(const CostResults& results) {
 }
 
 /// The setting that reaches an accuracy, or the verdict with the best setting below it.
-Cell verdictCell(const auto& of, std::string remark = {}) {
+Cell verdictCell(const CostResults& results, const auto& of, std::string remark = {}) {
   const std::string setting = settingText(of.knob, of.setting);
   const bool reached = of.verdict == Verdict::pass;
+  std::optional<CostKind> kind;
+  if constexpr (requires { of.kind; }) kind = of.kind;
   return {reached ? setting : std::string(nameOf(of.verdict, costVerdictNames)),
-          {reached || setting.empty() ? "" : "best: " + setting, std::move(remark)},
+          {reached || setting.empty()
+               ? ""
+               : fmt::format("best of {}: {}",
+                             counted(settingsTried(results, of.engine, kind), "setting"), setting),
+           std::move(remark)},
           of.verdict,
           true};
 }
@@ -411,7 +438,7 @@ Table accuracyTable(const CostResults& results) {
           error = fmt::format("{}: {}", measureText(withoutOwn(point->measure)),
                               errorText(results, *point));
         table.rows.push_back(
-            {{cell.engine, targetText(cell.target), verdictCell(cell, tieText(cell.ties)),
+            {{cell.engine, targetText(cell.target), verdictCell(results, cell, tieText(cell.ties)),
               timeText(cell), Cell(error, {decidesText(cell.decides)})},
              std::exchange(group, {})});
       }
@@ -449,8 +476,8 @@ Blocks adviceBlocks(const CostResults& results) {
                                 measureText(obstacle->measure), errorText(results, *obstacle))
                   : "",
               {decidesText(one.decides)});
-    table.rows.push_back(
-        {{one.engine, wantText(results, one.target), verdictCell(one, remark), time, rest}});
+    table.rows.push_back({{one.engine, wantText(results, one.target),
+                           verdictCell(results, one, remark), time, rest}});
     if (one.verdict != Verdict::pass) continue;
     fragments.push_back(
         Heading{fmt::format("{} for {}: {}", one.engine, wantText(results, one.target),

@@ -63,7 +63,8 @@ void runOne(const Check& check, CheckContext context, ConformanceRow& row, Check
   context.lawIsOff = findings.lawIsOff;
   try {
     if (!hasDimension(context.can, check.dimension) || (check.lies && !context.inSpace))
-      context.skip("declares no " + spheresInSpace);
+      context.skip(fmt::format("has no scenes {}",
+                               check.dimension == 3 || check.lies ? "in space" : "of the plane"));
     if (check.lies && !findings.planar) context.skip(sameOfSpheres);
     check.run(context);
   } catch (const Skipped& skip) {

@@ -176,7 +176,8 @@ double secondsOf(const std::string& budget) {
                         "90s, 10m or 1h");
 }
 
-double fractionOf(const std::string& target) {
+double accuracyOf(const std::string& target, bool inMargins) {
+  if (inMargins) return numberWithUnit("--want", target, {{"", 1.0}}, "1 or 0.5, in margins");
   return numberWithUnit("--want", target, {{"", 1.0}, {"%", 0.01}}, "1% or 1e-3");
 }
 

@@ -129,8 +129,9 @@ double wholeNumberOf(const std::string& option, double value, double least, doub
 /// The value of --budget, "90s", "10m", "1h" [s]. @throws BadInput
 double secondsOf(const std::string& budget);
 
-/// The value of --want, "1%" or "1e-3", as a share: 0.01, 0.001. @throws BadInput
-double fractionOf(const std::string& target);
+/// The value of --want: "1%" or "1e-3" as a share, 0.01 or 0.001; "0.5" in margins as it is.
+/// @throws BadInput
+double accuracyOf(const std::string& target, bool inMargins);
 
 /// Now, as ISO 8601 in UTC.
 std::string timeStamp();

@@ -18,6 +18,7 @@
 namespace crossgrain::inline studies {
 
 namespace fs = std::filesystem;
+using std::operator""sv;
 
 std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command) {
   addMirrors(setup.run.timeout);  // sections may be theirs
@@ -118,14 +119,18 @@ Case onlyFlow(const CommandLine& line, const char* command) {
   }
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
+  // Both begin from states of grain's.
+  if (anyConvex(cases.front()) && (command == "baseline"sv || command == "identify"sv))
+    throw BadInput(
+        fmt::format("{}: {} needs grain, which has no convex bodies", file.string(), command));
   // import takes a case as it is for what comes after.
-  if (std::string_view(command) != "import")
+  if (command != "import"sv)
     reportKeysWithoutUse(cases.front(), command, line.json ? stderr : stdout);
   std::vector<std::string> overrides;
   if (line.quick) overrides = quickOverrides(cases.front());
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
-  const bool shares = std::string_view(command) == "compare" &&
-                      shareConventions(cases.front(), line.run.engines, overrides);
+  const bool shares =
+      command == "compare"sv && shareConventions(cases.front(), line.run.engines, overrides);
   return shares || line.quick ? loadCase(file, overrides, {}, starts).front() : cases.front();
 }
 

@@ -50,10 +50,10 @@ double costBudget(const CostOptions& options) {
 std::vector<Case> casesOfCost(const CommandLine& given, CostOptions& own) {
   CommandLine line = given;
   costBudget(own);  // what is misspelt is refused before anything runs
-  if (own.target) fractionOf(*own.target);
   for (const auto& [key, numbers] : {std::pair("disks", &own.disks), {"threads", &own.threads}})
     if (*numbers) line.overrides.push_back(fmt::format("cost.{}=[{}]", key, **numbers));
   const Case setup = onlyFlow(line, "cost");
+  if (own.target) accuracyOf(*own.target, !setup.law.soft());
   if (!line.quick) return {setup};
   std::vector<std::string> overrides =
       quickOverrides(loadCase(line.inputs.front(), line.overrides).front(), 0.05);
@@ -525,7 +525,7 @@ CostResults runCost(const StudyWork& work, const CostOptions& options) {
   results.budgetForTheRest = measuring.budgetForTheRest;
   for (const auto& kind : kinds) kind->addTo(results);
   addEngines(results, study);
-  if (options.target) results.target = fractionOf(*options.target);
+  if (options.target) results.target = accuracyOf(*options.target, !study.setup.law.soft());
   addCostAnalysis(results);
   return results;
 }

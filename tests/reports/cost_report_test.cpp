@@ -183,7 +183,7 @@ TEST(CostOverview, Answer_HasStepTimeAndWhatStandsInTheWay) {
   EXPECT_EQ(cells[2].words, "Ψ_f, whatever the step");
   EXPECT_TRUE(has(overview.conclusion.front(),
                   "10 %: a with t_c/10 (step 0.100 s; 1.00 s for one sweep of collisions); 1 %: no "
-                  "setting that was tried"))
+                  "setting (3 tried)"))
       << overview.conclusion.front();
 }
 
@@ -239,7 +239,7 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   EXPECT_TRUE(has(
       costToml(results),
       "reached by t_c/10, 700 s of processor time per second of the scene (measured in collision "
-      "and averages); a tie with t_c/20, precision float; the cheapest engine, a tie "
+      "and averages); a tie with t_c/20 or precision float; the cheapest engine, a tie "
       "with b\n[run]"));
   results.advice.pop_back();
   results.advice[0].ties.clear();
@@ -259,6 +259,27 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   EXPECT_FALSE(has(costToml(results), "[run]"));
   results.target = 0.01;
   EXPECT_EQ(costToml(results), "");
+}
+
+/// Few settings show little: how many there were is said with "not reached".
+TEST(CostToml, NotReached_SaysOfHowManySettings) {
+  CostResults results = byHand();
+  results.target = 0.1;
+  Advice advice;
+  advice.engine = results.points.front().engine;
+  advice.target = 0.1;
+  advice.verdict = Verdict::fail;
+  advice.knob = "time_step";
+  advice.setting = "t_c/10";
+  results.advice = {advice};
+  std::set<std::pair<std::string, std::string>> tried;
+  for (const CostPoint& point : results.points)
+    if (point.engine == advice.engine && point.measured()) tried.emplace(point.knob, point.setting);
+  const std::string best =
+      fmt::format("the best of {} setting{} is t_c/10", tried.size(), tried.size() == 1 ? "" : "s");
+  EXPECT_TRUE(has(costToml(results), "not reached, " + best)) << costToml(results);
+  results.cells = {{{}, advice.engine, CostKind::averages, CostBasis::scene, 0.1}};
+  EXPECT_TRUE(has(textOf(reportOf(results)), "10 %: no setting ("));
 }
 
 }  // namespace
