@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -11,6 +10,7 @@
 #include "reports/common/overview.hpp"
 #include "support/busy_time.hpp"
 #include "support/numbers.hpp"
+#include "support/terminal.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -59,7 +59,7 @@ void printResults(const CommandLine& line, const std::string& text,
     fmt::print("{}\n", (line.run.out / "results.json").string());
     return;
   }
-  fmt::print("{}", text);
+  printText(text);
   printOverview(overview);
   fmt::print("report: {}\n", (line.run.out / "report.html").string());
   if (timeSpent && !line.run.quiet) printTimeSpent();
@@ -67,24 +67,28 @@ void printResults(const CommandLine& line, const std::string& text,
 
 int printOutcome(const CommandLine& line, const Outcome& outcome) {
   for (const std::string& reason : outcome.failures) printFailure(reason);
-  if (outcome.nothingJudged)
-    fmt::print(line.json ? stderr : stdout, "{}nothing was judged: {}\n",
-               line.json ? "crossgrain: " : "", *outcome.nothingJudged);
+  const auto print = [&](const std::string& sentence) {
+    if (line.json)
+      fmt::print(stderr, "crossgrain: {}\n", sentence);
+    else
+      printText(sentence);
+  };
+  if (outcome.nothingJudged) print("nothing was judged: " + *outcome.nothingJudged);
   if (outcome.status == exitFailed && !outcome.fails.empty())
-    fmt::print(line.json ? stderr : stdout, "{}status 1: {}\n", line.json ? "crossgrain: " : "",
-               fmt::join(outcome.fails, "; "));
+    print(fmt::format("status 1: {}", fmt::join(outcome.fails, "; ")));
   return outcome.status;
 }
 
+void printText(const std::string& text) {
+  fmt::print("{}", wrappedLines(text, terminalWidth(STDOUT_FILENO)));
+}
+
 void printOverview(const reports::Overview& overview) {
-  reports::TextLook look;
+  reports::TextLook look{terminalWidth(STDOUT_FILENO)};
   if (::isatty(STDOUT_FILENO) == 1) {
     // https://no-color.org: set to anything but nothing, there are no colours.
     const char* const noColour = std::getenv("NO_COLOR");
     look.coloured = !noColour || *noColour == '\0';
-    winsize window{};
-    const bool known = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
-    look.width = known ? window.ws_col : 80;
   }
   fmt::print("{}", reports::overviewText(overview, look));
 }

@@ -10,6 +10,9 @@ namespace crossgrain::inline cli {
 /// One line on standard error for a run that failed.
 void printFailure(const std::string& reason);
 
+/// On standard output, lines no longer than the terminal is wide.
+void printText(const std::string& text);
+
 /// The matrix that the report opens with: in colours on a terminal, unless NO_COLOR is set.
 void printOverview(const reports::Overview& overview);
 

@@ -1,23 +1,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <sstream>
 
 #include "reports/common/report.hpp"
 #include "reports/common/text.hpp"
+#include "support/terminal.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
-
-/// Characters, not bytes: all that reports print are one place wide.
-std::size_t widthOf(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) != 0x80u; }));
-}
-
-std::string padded(const std::string& text, std::size_t width) {
-  return text + std::string(width - std::min(width, widthOf(text)), ' ');
-}
 
 std::string textOf(const OverviewCell& cell) {
   const std::string mark(lookOf(cell.verdict).mark);
@@ -26,14 +18,27 @@ std::string textOf(const OverviewCell& cell) {
 
 constexpr std::size_t gap = 2;  ///< between columns
 
+/// A column's name in lines of at most that width, but for longer words.
+Names headLines(const std::string& name, std::size_t width) {
+  Names lines;
+  std::istringstream text(wrapped(name, width, 0));
+  for (std::string line; std::getline(text, line);) lines.push_back(line);
+  return lines;
+}
+
 /// Widths of the columns, the rows' names first.
-std::vector<std::size_t> widthsOf(const Overview& overview) {
-  std::vector<std::size_t> widths = {widthOf(overview.rowsAre)};
-  for (const OverviewColumn& column : overview.columns) widths.push_back(widthOf(column.name));
+/// @param most  of a column's name, but for longer words
+std::vector<std::size_t> widthsOf(const Overview& overview, std::size_t most) {
+  std::vector<std::size_t> widths = {displayWidth(overview.rowsAre)};
+  for (const OverviewColumn& column : overview.columns) {
+    widths.push_back(0);
+    for (const std::string& line : headLines(column.name, most))
+      widths.back() = std::max(widths.back(), displayWidth(line));
+  }
   for (const OverviewRow& row : overview.rows) {
-    widths[0] = std::max(widths[0], widthOf(row.name));
+    widths[0] = std::max(widths[0], displayWidth(row.name));
     for (std::size_t k = 0; k < row.cells.size(); ++k)
-      widths[k + 1] = std::max(widths[k + 1], widthOf(textOf(row.cells[k])));
+      widths[k + 1] = std::max(widths[k + 1], displayWidth(textOf(row.cells[k])));
   }
   return widths;
 }
@@ -59,12 +64,14 @@ struct Shown {
 };
 
 /// Each block has a head and a row at least; what is left out takes a line.
-Shown shownOf(const Overview& overview, std::size_t blocks) {
-  const std::size_t lines = mostOverviewLines - overview.conclusion.size();
-  if (blocks * (1 + overview.rows.size()) <= lines) return {overview.rows.size(), blocks};
-  const std::size_t each = std::max<std::size_t>((lines - 1) / blocks, 2);
-  const std::size_t rows = std::min(overview.rows.size(), each - 1);
-  return {rows, std::min(blocks, (lines - 1) / (1 + rows))};
+/// @param heads  lines of a head
+/// @param taken  lines below the matrix
+Shown shownOf(const Overview& overview, std::size_t blocks, std::size_t heads, std::size_t taken) {
+  const std::size_t lines = mostOverviewLines - std::min(taken, mostOverviewLines - heads - 3);
+  if (blocks * (heads + overview.rows.size()) <= lines) return {overview.rows.size(), blocks};
+  const std::size_t each = std::max<std::size_t>((lines - 1) / blocks, heads + 1);
+  const std::size_t rows = std::min(overview.rows.size(), each - heads);
+  return {rows, std::min(blocks, (lines - 1) / (heads + rows))};
 }
 
 /// "… and 3 more rows and 1 more column: in the report"; empty: nothing is left out.
@@ -142,15 +149,33 @@ std::string standing(const Overview& overview) {
 
 std::string overviewText(const Overview& overview, const TextLook& look) {
   if (overview.rows.empty() || overview.columns.empty()) return {};
-  const std::vector<std::size_t> widths = widthsOf(overview);
-  const std::vector<std::size_t> begins = blocksOf(widths, look.width);
-  const Shown shown = shownOf(overview, begins.size() - 1);
-  std::string text;
+  std::vector<std::size_t> widths = widthsOf(overview, look.width);
+  std::vector<std::size_t> begins = blocksOf(widths, look.width);
+  if (begins.size() > 2) {  // heads of several lines leave room for more columns
+    widths = widthsOf(overview, 0);
+    begins = blocksOf(widths, look.width);
+  }
+  std::vector<Names> heads = {{overview.rowsAre}};
+  std::size_t headHeight = 1;
+  for (std::size_t k = 0; k < overview.columns.size(); ++k) {
+    heads.push_back(headLines(overview.columns[k].name, widths[k + 1]));
+    headHeight = std::max(headHeight, heads.back().size());
+  }
+  std::string text, conclusion;
+  for (const std::string& sentence : overview.conclusion)
+    conclusion += wrapped(sentence, look.width, 2) + "\n";
+  const Shown shown = shownOf(overview, begins.size() - 1, headHeight,
+                              static_cast<std::size_t>(std::ranges::count(conclusion, '\n')));
   for (std::size_t b = 0; b < shown.blocks; ++b) {
-    std::string head = padded(overview.rowsAre, widths[0]);
-    for (std::size_t k = begins[b]; k < begins[b + 1]; ++k)
-      head += std::string(gap, ' ') + padded(overview.columns[k].name, widths[k + 1]);
-    text += withoutEnd(head);
+    for (std::size_t h = 0; h < headHeight; ++h) {
+      const auto part = [&](std::size_t k) {
+        return padded(h < heads[k].size() ? heads[k][h] : "", widths[k]);
+      };
+      std::string head = part(0);
+      for (std::size_t k = begins[b]; k < begins[b + 1]; ++k)
+        head += std::string(gap, ' ') + part(k + 1);
+      text += withoutEnd(head);
+    }
     for (std::size_t r = 0; r < shown.rows; ++r) {
       const OverviewRow& row = overview.rows[r];
       std::string line = padded(row.name, widths[0]);
@@ -164,8 +189,7 @@ std::string overviewText(const Overview& overview, const TextLook& look) {
   }
   text +=
       leftOut(overview.rows.size() - shown.rows, overview.columns.size() - begins[shown.blocks]);
-  for (const std::string& sentence : overview.conclusion) text += sentence + "\n";
-  return text;
+  return text + conclusion;
 }
 
 std::string tableMarkdown(const Table& table, const std::string& title) {

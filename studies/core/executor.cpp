@@ -1,12 +1,14 @@
 #include "studies/core/executor.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
+
+#include "support/terminal.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -34,7 +36,7 @@ Progress::Progress(bool quiet) : quiet_(quiet), terminal_(::isatty(STDERR_FILENO
 
 Progress::~Progress() {
   const std::scoped_lock lock(mutex_);
-  erase();
+  showKept();
 }
 
 void Progress::begin(const std::string& stage, std::vector<double> weights) {
@@ -46,11 +48,19 @@ void Progress::begin(const std::string& stage, std::vector<double> weights) {
   finished_ = 0;
   running_.assign(weights_.size(), {});
   started_ = drawn_ = Clock::now();
+  headShown_ = false;
+}
+
+/// Before anything of a stage: one without work is none.
+void Progress::showHead() {
+  if (std::exchange(headShown_, true)) return;
+  showKept();
   if (!quiet_ && !terminal_) show("{}: {} to do\n", stage_, weights_.size());
 }
 
 void Progress::update(std::size_t index, const std::string& label, double fraction) {
   const std::scoped_lock lock(mutex_);
+  showHead();
   fractions_[index] = fraction;
   running_[index] = fmt::format("{} {:.0f} %", label, 100.0 * fraction);
   draw();
@@ -61,11 +71,28 @@ void Progress::finish(std::size_t index, const std::string& line) {
   fractions_[index] = 1.0;
   running_[index].clear();
   ++finished_;
+  if (line.empty()) return;
+  showHead();
   if (quiet_) return;
   erase();
   show("[{}/{}] {}\n", finished_, fractions_.size(), line);
   drawn_ = {};
   draw();
+}
+
+void Progress::keep(std::size_t count, const std::string& noun) {
+  const std::scoped_lock lock(mutex_);
+  if (count > 0) kept_[noun] += count;
+}
+
+void Progress::showKept() {
+  erase();
+  std::string text;
+  for (const auto& [noun, count] : kept_)
+    text +=
+        fmt::format("{}{} {}{}", text.empty() ? "" : " and ", count, noun, count == 1 ? "" : "s");
+  if (!quiet_ && !text.empty()) show("{} kept\n", text);
+  kept_.clear();
 }
 
 void Progress::say(const std::string& line) {
@@ -88,9 +115,7 @@ void Progress::draw() {
   for (const std::string& label : running_)
     if (!label.empty()) line += "  ·  " + label;
 
-  winsize window{};
-  const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_col > 0;
-  const std::size_t width = known ? window.ws_col : 80;
+  const std::size_t width = terminalWidth(STDERR_FILENO);
   if (line.size() > width) line.resize(width);
   while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0x80u) != 0) line.pop_back();
   show("\r\033[K{}", line);

@@ -41,14 +41,20 @@ class Progress {
 
   /// Piece `index` is done to that fraction; label is shown while it runs.
   void update(std::size_t index, const std::string& label, double fraction);
-  /// Piece `index` is over; `line` says how it ended.
+  /// Piece `index` is over; `line` says how it ended, if there is something to say.
   void finish(std::size_t index, const std::string& line);
+  /// So many pieces need no work, as they are there already. All of them, of one stage or several,
+  /// are one line, which comes before the next piece that works or at the end.
+  /// @param noun  "run", "packing"
+  void keep(std::size_t count, const std::string& noun);
   /// A line of its own.
   void say(const std::string& line);
 
  private:
   void draw();
   void erase();
+  void showHead();
+  void showKept();
 
   bool quiet_, terminal_;
   std::mutex mutex_;
@@ -57,7 +63,8 @@ class Progress {
   std::size_t finished_ = 0;
   std::vector<std::string> running_;
   std::chrono::steady_clock::time_point started_, drawn_;
-  bool lineOpen_ = false;
+  bool lineOpen_ = false, headShown_ = true;
+  std::map<std::string, std::size_t> kept_;
 };
 
 /// Identity of a run: engine, case or change of it, and packing. Results are looked up by it.
@@ -97,47 +104,54 @@ template <typename Result>
 std::vector<Result> runOrLoad(const std::vector<CachedTask<Result>>& tasks, const RunStore& store,
                               Progress& progress, const std::string& stage, int jobs) {
   std::vector<Result> results(tasks.size());
-  std::vector<double> weights;
-  for (const auto& task : tasks) weights.push_back(task.weight);
-  progress.begin(stage, weights);
-  const auto isThere = [&](std::size_t k, const char* whose) {
+  const auto isThere = [&](std::size_t k) {
     auto before = store.findAs<Result>(tasks[k].name, tasks[k].key);
-    if (!before) return false;
-    results[k] = *std::move(before);
-    progress.finish(k, fmt::format("{}: finished {}", tasks[k].label, whose));
-    return true;
+    if (before) results[k] = *std::move(before);
+    return before.has_value();
   };
-  const auto work = [&](std::size_t k) {
-    const auto& own = tasks[k];
-    auto outcome = own.work([&](double f) { progress.update(k, own.label, f); });
+  std::vector<std::size_t> open;  // tasks by their place in the progress
+  std::vector<double> weights;
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    if (isThere(k)) continue;
+    open.push_back(k);
+    weights.push_back(tasks[k].weight);
+  }
+  progress.keep(tasks.size() - open.size(), "run");
+  if (open.empty()) return results;
+  progress.begin(stage, weights);
+  const auto run = [&](std::size_t place) {
+    const auto& own = tasks[open[place]];
+    auto outcome = own.work([&](double f) { progress.update(place, own.label, f); });
     store.keep(own.name, own.key, jsonOf(outcome.result), outcome.finished);
     if (!outcome.finished) store.failed(own.name);
-    results[k] = std::move(outcome.result);
-    progress.finish(k, own.label + ": " + outcome.line);
+    results[open[place]] = std::move(outcome.result);
+    progress.finish(place, own.label + ": " + outcome.line);
   };
-  const auto isDone = [&](std::size_t k) {  // unless another has it
+  const auto isDone = [&](std::size_t place) {  // unless another has it
     if (!store.isShared()) {
-      work(k);
+      run(place);
       return true;
     }
-    const auto claim = store.claim(tasks[k].name);
+    const auto claim = store.claim(tasks[open[place]].name);
     if (!claim) return false;
-    if (!isThere(k, "by another shard")) work(k);
+    if (isThere(open[place]))
+      progress.finish(place, tasks[open[place]].label + ": finished by another shard");
+    else
+      run(place);
     return true;
   };
-  std::vector<Task> open;
+  std::vector<Task> work;
   std::mutex mutex;
   std::vector<std::size_t> left;
-  for (std::size_t k = 0; k < tasks.size(); ++k)
-    if (!isThere(k, "in an earlier run"))
-      open.push_back({tasks[k].priority.value_or(tasks[k].weight), [&, k] {
-                        if (isDone(k)) return;
-                        const std::scoped_lock lock(mutex);
-                        left.push_back(k);
-                      }});
-  runTasks(open, jobs);
-  for (const std::size_t k : left)
-    while (!isDone(k)) {
+  for (std::size_t place = 0; place < open.size(); ++place)
+    work.push_back({tasks[open[place]].priority.value_or(weights[place]), [&, place] {
+                      if (isDone(place)) return;
+                      const std::scoped_lock lock(mutex);
+                      left.push_back(place);
+                    }});
+  runTasks(work, jobs);
+  for (const std::size_t place : left)
+    while (!isDone(place)) {
       throwIfInterrupted();
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }

@@ -193,14 +193,18 @@ void Campaign::preparePackings(int count) {
                throwIfInterrupted();
                progress_.update(place, label, fraction);
              });
-             std::string line =
-                 label + (packings_[at].fromCache ? ": from the cache" : ": prepared");
-             if (!packings_[at].anew.empty()) line += " anew: " + packings_[at].anew;
-             if (!packings_[at].notCached.empty())
-               line += ", not kept for next time: " + packings_[at].notCached;
-             if (!packings_[at].fromCache)
+             const Packing& packing = packings_[at];
+             if (packing.fromCache)
+               progress_.keep(1, "packing");
+             else
                seconds[at] =
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+             std::string line;  // only of one that was prepared, which assemblies and files are not
+             if (!packing.fromCache && cellOf(setup_) && !packingFile(setup_))
+               line = label + ": prepared";
+             if (!packing.anew.empty()) line += " anew: " + packing.anew;
+             if (!packing.notCached.empty())
+               line += ", not kept for next time: " + packing.notCached;
              progress_.finish(place, line);
            } catch (const Interrupted&) {
              throw;

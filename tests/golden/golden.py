@@ -31,6 +31,7 @@ MOST_TEXT = 12_000  # bytes
 MOST_GROUPS = 24
 
 BASELINE = {
+    "COLUMNS": "1000",  # no sentence is broken
     "GRAIN_INSTRUCTIONS": "baseline",
     "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX2_Usable,-FMA_Usable,-FMA4_Usable",
 }

@@ -23,6 +23,8 @@ import uuid
 PROGRAM = os.environ["CROSSGRAIN"]
 # Examples and engines of tests say "python3": the one that runs these tests has numpy, the first in PATH need not.
 os.environ["PATH"] = f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"
+# Sentences are looked for in one line; tests of terminals say how wide theirs is.
+os.environ["COLUMNS"] = "1000"
 HOME = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("CROSSGRAIN_BUILD", HOME / "build/release"))
 CASES = HOME / "cases"
@@ -152,7 +154,7 @@ def on_terminal(columns, stream, arguments, env=None):
     fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("4H", 24, columns, 0, 0))
     silent = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL} | {stream: theirs}
     with subprocess.Popen(
-        [PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, env=environment(env), **silent
+        [PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, env=environment({"COLUMNS": None} | (env or {})), **silent
     ) as process:
         os.close(theirs)
         drawn = b""

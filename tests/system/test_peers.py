@@ -147,9 +147,9 @@ class Yade(OutOfTheBox, Peer):
             averaging__settle_rotations=0.0, averaging__rotations=0.01,
         )  # fmt: skip
         kept = set()
-        for engine, told in (("grain", "prepared"), ("yade", "prepared"), ("yade", "from the cache")):
+        for engine, told in (("grain", "prepared"), ("yade", "prepared"), ("yade", None)):
             done = self.compare("--fresh", *short, f"--set=preparation.engine={engine}", env=env)
-            self.assertIn(f"packing 0: {told}", done.stderr)
+            self.assertIn(f"packing 0: {told}" if told else "1 packing kept", done.stderr)
             kept.add(self.results()["packings"][0]["hash"])
         self.assertEqual(2, len(kept))
 

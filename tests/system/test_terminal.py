@@ -53,12 +53,14 @@ class Terminal(SystemTest):
             self.assertEqual(HELD, status, printed)
             return printed.replace("\r\n", "\n")
 
-        coloured = drawn(160)
+        coloured = drawn(1000)
         self.assertRegex(coloured, r"\x1b\[32m✓ \d+ of")
         self.assertEqual(plain, ESCAPE.sub("", coloured))
-        self.assertEqual(plain, drawn(160, NO_COLOR="1"))
-        narrow = ESCAPE.sub("", drawn(50)).partition("engine ")[2].partition("Passed every ")[0]
-        self.assertLessEqual(max(map(len, narrow.splitlines())), 50)
+        self.assertEqual(plain, drawn(1000, NO_COLOR="1"))
+        for columns in (50, 80):
+            narrow = ESCAPE.sub("", drawn(columns)).partition("report: ")[0]
+            self.assertLessEqual(max(map(len, narrow.splitlines())), columns)
+            self.assertEqual(narrow, self.run_program(*command, env={"COLUMNS": str(columns)}).stdout.partition("report: ")[0])
 
 
 if __name__ == "__main__":
