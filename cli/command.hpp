@@ -26,8 +26,20 @@ struct Command {
   Action (*declare)(CLI::App& app, CommandLine& line);
 };
 
-/// All of them, in the order of `crossgrain --help`.
+/// Commands by what a user wants to know. Those without a question are for the program itself.
+struct CommandGroup {
+  const char* question;
+  std::vector<const Command*> commands;
+};
+
+/// In the order of `crossgrain --help`.
+const std::vector<CommandGroup>& commandGroups();
+
+/// All of them, in that order.
 const std::vector<const Command*>& commands();
+
+/// `crossgrain __complete WORD …` prints what can stand in place of the last word.
+inline constexpr const char* completingCommand = "__complete";
 
 bool isInternal(const Command& command);
 

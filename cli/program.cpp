@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <new>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -18,6 +17,7 @@
 #include "adapters/registry.hpp"
 #include "cases/engine_file.hpp"
 #include "cli/command.hpp"
+#include "cli/help.hpp"
 #include "cli/outcome.hpp"
 #include "reports/render/gnuplot.hpp"
 #include "studies/core/engine_access.hpp"
@@ -120,56 +120,12 @@ std::string explain(const CLI::ParseError& error, const CLI::App& app) {
                      ofCommand ? asked.get_name() : "", ofCommand ? " " : "");
 }
 
-/// Text of --help on all commands.
-struct Named {
+struct Removed {
   const char *name, *what;
 };
 
-constexpr Named exitStatuses[] = {
-    {"0",
-     "passed; undecided and borderline verdicts and refused engines are counted in the output"},
-    {"1",
-     "engines disagree, a check failed, a run is unstable, or nothing was judged (one engine alone "
-     "and --quick: only with --strict)"},
-    {"2", "bad input, or no engine named can run the case; nothing was run"},
-    {"3", "an engine failed, or the disk is full (outranks 1)"},
-    {"130", "interrupted"}};
-
-/// Those that the program reads.
-constexpr Named environmentVariables[] = {
-    {"CROSSGRAIN_CACHE",
-     "folder that prepared packings are kept in; else XDG_CACHE_HOME/crossgrain, else "
-     "~/.cache/crossgrain. It may be removed at any time: packings are then prepared anew"},
-    {"CROSSGRAIN_DATA",
-     "folder that holds cases/ and the scripts in engines/ (default: share/crossgrain where the "
-     "program is installed, else its sources)"},
-    {"NO_COLOR", "set to anything: no colours on the terminal"},
-    {"GRAIN_INSTRUCTIONS",
-     "baseline, avx2 or avx512: instructions that the in-house engine uses "
-     "(default: the best there are; all give the same bits)"},
-    {"TMPDIR", "folder for scratch files (default: /tmp)"}};
-
-/// Below the options of a command's help, or of the program's (null).
-std::string footer(const Command* command) {
-  std::string text;
-  if (command) {
-    std::istringstream examples(command->examples);
-    text = "Example:\n";
-    for (std::string line; std::getline(examples, line);)
-      text += "  " + line.substr(line.find_first_not_of(' ')) + "\n";
-    text += "\n";
-  }
-  text += "Exit status:\n";
-  for (const Named& status : exitStatuses)
-    text += fmt::format("  {:<5}{}\n", status.name, status.what);
-  text += "\nEnvironment:\n";
-  for (const Named& variable : environmentVariables)
-    text += fmt::format("  {}  {}\n", variable.name, variable.what);
-  return text.substr(0, text.size() - 1);
-}
-
 /// Commands of earlier versions, and where what they did is now.
-constexpr Named removedCommands[] = {
+constexpr Removed removedCommands[] = {
     {"plan", "COMMAND … --shard K/N shares a command's runs among processes (docs/versions.md)"},
     {"rev", "crossgrain average FILES CASE --rev does its work"},
     {"scale", "cost CASE --disks N,N --threads P,P times steps as the scene grows and is shared"},
@@ -180,7 +136,7 @@ constexpr Named removedCommands[] = {
 /// CLI11 would only say that some subcommand is required.
 void requireKnownCommand(const std::string& name) {
   const std::vector<std::string> names = publicCommands();
-  for (const Named& removed : removedCommands)
+  for (const Removed& removed : removedCommands)
     if (name == removed.name)
       throw BadInput(fmt::format("there is no command '{}' any more: {}", name, removed.what));
   const bool known =
@@ -208,22 +164,26 @@ int runProgram(int argc, char** argv) {
                "crossgrain"};
   app.set_version_flag("-V,--version", programVersion);
   app.require_subcommand(1);
-  app.footer(footer(nullptr));
+  formatHelp(app);
 
   for (const auto& file : installedEngineFiles()) addEngine(loadEngineFile(file));
 
   std::vector<Action> actions;
-  for (const Command* command : commands()) {
-    CLI::App* sub = app.add_subcommand(command->name, command->what);
-    if (isInternal(*command))
-      sub->group("");
-    else
-      sub->footer(footer(command));
-    actions.push_back(command->declare(*sub, line));
-  }
+  for (const CommandGroup& group : commandGroups())
+    for (const Command* command : group.commands) {
+      CLI::App* sub = app.add_subcommand(command->name, command->what);
+      sub->group(group.question);
+      sub->footer(footerOf(*command));
+      actions.push_back(command->declare(*sub, line));
+    }
 
-  if (const std::string first = argc > 1 ? argv[1] : "-"; first[0] != '-')
-    requireKnownCommand(first);
+  const std::string first = argc > 1 ? argv[1] : "-";
+  if (first == completingCommand) {
+    for (const std::string& word : completionsOf(app, {argv + 2, argv + argc}))
+      fmt::print("{}\n", word);
+    return exitPassed;
+  }
+  if (first[0] != '-') requireKnownCommand(first);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& asked) {  // --help, --version

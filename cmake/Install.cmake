@@ -3,7 +3,7 @@
 #   share/crossgrain/cases, engines  read at run time
 #   share/crossgrain/examples      engines of one's own to begin with; engines/python and engines/cpp are their helpers
 #   share/crossgrain/python        crossgrain.py reads results and snapshots
-#   share/bash-completion/completions
+#   share/…                        completion in bash, zsh and fish, where each looks for it
 #   share/man                      what --help says
 #   lib, include/crossgrain        the libraries, for find_package(crossgrain)
 include(GNUInstallDirs)
@@ -15,7 +15,12 @@ foreach(engine bullet chipmunk mujoco ode)
     install(TARGETS crossgrain-${engine} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
   endif()
 endforeach()
-install(FILES cli/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME crossgrain)
+foreach(place bash:bash-completion/completions/crossgrain zsh:zsh/vendor-completions/_crossgrain
+        fish:fish/vendor_completions.d/crossgrain.fish)
+  string(REGEX MATCH "(.*):(.*)/(.*)" place ${place})
+  install(FILES ${CMAKE_BINARY_DIR}/completion.${CMAKE_MATCH_1} RENAME ${CMAKE_MATCH_3}
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/${CMAKE_MATCH_2})
+endforeach()
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/crossgrain
         FILES_MATCHING PATTERN "*.toml" PATTERN "*.md" PATTERN "*.csv" PATTERN "*.py")
 # grain and box2d are part of the program.

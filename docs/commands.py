@@ -4,6 +4,7 @@
 A row is a command with its arguments and required options, what it does, and its other options.
 """
 
+import os
 import pathlib
 import re
 import subprocess
@@ -14,12 +15,13 @@ HEAD = "| command | does | options |\n|---|---|---|\n"
 
 
 def help_of(program, *command):
-    return subprocess.run([program, *command, "--help"], capture_output=True, encoding="utf-8", check=True).stdout
+    wide = os.environ | {"COLUMNS": "1000"}
+    return subprocess.run([program, *command, "--help"], capture_output=True, encoding="utf-8", check=True, env=wide).stdout
 
 
 def commands_of(program):
-    listed = help_of(program).partition("Subcommands:\n")[2].partition("\n\n")[0]
-    return re.findall(r"(?m)^  (\S+) +\S", listed)
+    listed = help_of(program).partition("Exit status:\n")[0]
+    return re.findall(r"(?m)^  ([a-z]\S*) +\S", listed)
 
 
 def row_of(program, command):

@@ -1,9 +1,11 @@
-"""What the program says of itself: help and its examples, lists, the page of commands, completion in bash."""
+"""What the program says of itself: help and its examples, lists, the page of commands, completion in shells."""
 
 import json
+import os
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import unittest
@@ -22,11 +24,23 @@ class Help(SystemTest):
             return subprocess.run([PROGRAM, *arguments], capture_output=True, encoding="utf-8", check=True).stdout
 
         cls.of_program = help_of("--help")
-        section = cls.of_program.partition("Subcommands:\n")[2].partition("\n\n")[0]
-        cls.commands = re.findall(r"(?m)^  (\S+) +\S", section)
+        cls.commands = reference.commands_of(PROGRAM)
         cls.of = {command: help_of(command, "--help") for command in cls.commands}
         cls.short = {command: (help_of(command, "-h"), help_of("help", command)) for command in cls.commands[:3]}
         cls.version = help_of("--version")
+
+    def test_help_fits_the_terminal(self):
+        for columns in (72, 100):
+            for command in ((), *((each,) for each in self.commands)):
+                with self.subTest(columns=columns, command=command):
+                    text = self.run_program(*command, "--help", env={"COLUMNS": str(columns)}).stdout
+                    # A path or a list of values has no blank to be broken at.
+                    long = [line for line in text.splitlines() if len(line) > columns and " " in line.strip()]
+                    self.assertEqual([], long)
+                    joined = re.sub(r"( \\)?\n +", " ", text)
+                    for example in re.findall(r"(?m)^  (crossgrain .*)$", self.of[command[0]]) if command else ():
+                        self.assertIn(example, joined, "an example that is broken can be pasted")
+        self.assertLessEqual(max(map(len, self.run_program("--help", env={"COLUMNS": None}).stdout.splitlines())), 80)
 
     def examples(self):
         for command, text in self.of.items():
@@ -34,15 +48,18 @@ class Help(SystemTest):
             self.assertNotEqual([], found, command)
             yield from ((command, shlex.split(example, comments=True)) for example in found)
 
-    def test_help_has_usage_exit_status_and_environment(self):
+    def test_help_has_usage_and_once_exit_status_and_environment(self):
         for command, text in self.of.items():
             with self.subTest(command):
                 self.assertRegex(text, rf"Usage: crossgrain {command}\b")
-                self.assertRegex(text, r"Exit status:\n  0 +passed")
-                self.assertIn("CROSSGRAIN_CACHE", text)
+                self.assertNotIn("CROSSGRAIN_CACHE", text)
+                self.assertIn("Exit status and environment: crossgrain --help", text)
         for command, others in self.short.items():
             self.assertEqual({self.of[command]}, set(others))
         self.assertRegex(self.of_program, r"Exit status:\n  0 +passed[\s\S]*\n  130 +interrupted")
+        self.assertIn("CROSSGRAIN_CACHE", self.of_program)
+        questions = re.findall(r"(?m)^(\S[^\n]*):\n  [a-z]", self.of_program)
+        self.assertEqual(["Check an engine", "Compare", "Accuracy, cost, hard cases", "Tools"], [each.partition(" (")[0] for each in questions])
         self.assertNotIn("__serve", self.of_program)
         self.assertRegex(self.version, r"^\d+\.\d+\.\d+\n$")
 
@@ -77,11 +94,14 @@ class Help(SystemTest):
         page = reference.PAGE.read_text(encoding="utf-8")
         self.assertEqual(reference.written(page, reference.table_of(PROGRAM)), page)
 
-    def complete(self, *words):
-        """Of the last word, as bash calls it: --option=value are three words."""
+    def complete(self, *words, shell="bash"):
+        """Of the last word, as bash calls it, where --option=value are three words; or as the other shells do."""
+        if shell != "bash":
+            return set(self.held("__complete", *words, cwd=self.folder).stdout.split())
         quoted = " ".join(f"'{word}'" for word in (PROGRAM, *words))
+        script = self.held("completion", "bash").stdout
         done = subprocess.run(
-            ["bash", "-c", f"set -u; source {HOME / 'cli/completion.bash'}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)};"
+            ["bash", "-c", f"set -u; {script}\ncompopt() {{ :; }}; COMP_WORDS=({quoted}); COMP_CWORD={len(words)};"
              " _crossgrain; printf '%s\\n' \"${COMPREPLY[@]}\""],
             capture_output=True, encoding="utf-8", check=True, cwd=self.folder,
         )  # fmt: skip
@@ -90,17 +110,37 @@ class Help(SystemTest):
 
     def test_completion(self):
         commands = self.complete("")
-        self.assertLessEqual(set(self.commands), commands)
-        self.assertFalse([word for word in commands if word.startswith("__")])
+        self.assertEqual(set(self.commands), commands)
         for command, text in self.of.items():
             with self.subTest(command):
                 self.assertEqual(set(re.findall(r"(?m)^  (?:-\w,)?(--[a-z0-9-]+)", text)), self.complete(command, "--"))
+        (self.folder / "mine.toml").write_text("", encoding="utf-8")
         for words, expected in (
-            (("comp",), {"compare"}), (("--v",), {"--version"}), (("calibrate", "--tension", "="), {"allow", "cut"}),
+            (("comp",), {"compare", "completion"}), (("--v",), {"--version"}), (("calibrate", "--tension", "="), {"allow", "cut"}),
             (("calibrate", "--tension", "c"), {"cut"}), (("list", "m"), {"measures"}), (("help", "sta"), {"stability"}),
-            (("compare", "x"), set()),  # files are bash's own
+            (("compare", "x"), set()), (("compare", "mi"), {"mine.toml"}),
+            (("compare", "cases/couette/q"), {"cases/couette/quick.toml"}), (("compare", "cas"), {"cases/"}),
+            (("compare", "mine.toml", "--engines", "grain,box2d-p"), {"grain,box2d-penalty"}),
+            (("conformance", "box2d-p"), {"box2d-penalty"}), (("engines", "box2d-p"), {"box2d-penalty"}),
+            (("compare", "--out", "mi"), {"mine.toml"}), (("compare", "mine.toml", "mi"), set()), (("nonsense", ""), set()),
         ):  # fmt: skip
             self.assertEqual(expected, self.complete(*words), words)
+            if "=" not in words:
+                self.assertEqual(expected, self.complete(*words, shell="fish"), words)
+        self.assertEqual({"--tension=allow", "--tension=cut"}, self.complete("calibrate", "--tension=", shell="zsh"))
+
+    def test_completion_in_other_shells(self):
+        """Those that are installed take the script, and complete with it."""
+        path = {"PATH": f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}"}
+        for shell in ("zsh", "fish"):
+            script = self.write(f"crossgrain.{shell}", self.held("completion", shell).stdout)
+            if not shutil.which(shell):
+                continue
+            with self.subTest(shell):
+                self.assertEqual("", self.call(shell, "--no-execute", script).stderr)
+                if shell == "fish":
+                    done = self.call(shell, "-c", f"source {script}; complete -C 'crossgrain calibrate --tension c'", env=path)
+                    self.assertEqual("cut", done.stdout.strip(), str(done))
 
 
 class List(SystemTest):

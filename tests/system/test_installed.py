@@ -114,7 +114,8 @@ class LaidOut(InstalledTest):
                     self.assertTrue((page.parent / link).exists(), f"{page.name}: {link}")
 
     def test_completion(self):
-        self.assertTrue((self.prefix / "share/bash-completion/completions/crossgrain").exists())
+        for place in ("bash-completion/completions/crossgrain", "zsh/vendor-completions/_crossgrain", "fish/vendor_completions.d/crossgrain.fish"):
+            self.assertIn("__complete", (self.prefix / "share" / place).read_text(encoding="utf-8"))
 
     def test_manual_page_has_every_command(self):
         page = (self.prefix / "share/man/man1/crossgrain.1").read_text(encoding="utf-8")
