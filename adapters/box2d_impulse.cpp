@@ -85,14 +85,14 @@ std::vector<Deviation> deviationsOf(const Scene& scene, const box2d_granular::Mo
   }
   const double unit = model.lengthUnit;
   deviations.push_back({"rounding", box2d_granular::roundingAt(box2d_granular::extentOf(model)),
-                        "m", "positions are rounded to float32 by up to this much"});
+                        "m", "largest rounding of positions to float32"});
   deviations.push_back({"slop", static_cast<double>(b2_linearSlop) * unit, "m",
-                        "overlaps up to this are left standing"});
+                        "largest overlap that is left standing"});
   deviations.push_back({"speed_limit", static_cast<double>(b2_maxTranslation) * unit / model.dt,
-                        "m/s", "Box2D slows disks that are faster"});
+                        "m/s", "speed above which Box2D slows disks"});
   if (model.skin > 0.0)
     deviations.push_back({"skin", model.skin * static_cast<double>(b2_polygonRadius) * unit, "m",
-                          "polygons reach so far beyond their sides"});
+                          "reach of polygons beyond their sides"});
   return deviations;
 }
 

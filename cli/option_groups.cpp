@@ -96,6 +96,17 @@ void addArgument(CLI::App& app, const std::string& name, std::string& text, cons
   app.add_option(name, text, what)->type_name(type)->required();
 }
 
+void addNamesArgument(CLI::App& app, std::vector<std::string>& names, const std::string& what) {
+  app.add_option_function<std::vector<std::string>>(
+         "name",
+         [&names](const std::vector<std::string>& lists) {
+           for (const std::string& list : lists)
+             for (const std::string& name : commaList(list)) names.push_back(trimmed(name));
+         },
+         what)
+      ->type_name("NAMES");
+}
+
 void addInputs(CLI::App& app, CommandLine& line, const std::string& name, const std::string& what,
                int least, int most) {
   CLI::Option* inputs = app.add_option(name, line.inputs, what)->type_name("FILE");
@@ -162,12 +173,16 @@ void addFilesAndCase(CLI::App& app, CommandLine& line, const std::string& files,
 
 void addSelection(CLI::App& app, CommandLine& line) {
   addText(app, "-k", line.only,
-          "only cases whose name or NAME/VARIANT contains this, or matches it where it has * or ?",
-          "TEXT");
+          "only cases whose name or NAME/VARIANT contains this, or matches it where it has * or ?; "
+          "several are separated by commas");
 }
 
 void addQuiet(CLI::App& app, CommandLine& line) {
   app.add_flag("--quiet", line.run.quiet, "print no progress");
+}
+
+void addVerbose(CLI::App& app, CommandLine& line) {
+  app.add_flag("-v,--verbose", line.verbose, "print all findings, not a summary");
 }
 
 void addPackings(CLI::App& app, CommandLine& line) {
@@ -191,6 +206,7 @@ void addResults(CLI::App& app, CommandLine& line) {
   app.add_flag("--fresh", line.run.fresh,
                "start anew; earlier results in --out are moved to its folder earlier/");
   app.add_flag("--json", line.json, "print only the path of results.json, for scripts");
+  addVerbose(app, line);
 }
 
 /// "2/4". @throws BadInput

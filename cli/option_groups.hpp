@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cli/command.hpp"
 
@@ -20,6 +21,9 @@ void addNumber(CLI::App& app, const std::string& name, std::optional<double>& nu
 /// @param type  how its value is called: "TEXT", or all that it can be, "allow|cut"
 void addText(CLI::App& app, const std::string& name, std::optional<std::string>& text,
              const std::string& what, const std::string& type = "TEXT");
+
+/// Names of engines, none or several.
+void addNamesArgument(CLI::App& app, std::vector<std::string>& names, const std::string& what);
 
 /// An argument, or an option, that is required.
 void addArgument(CLI::App& app, const std::string& name, std::string& text, const std::string& what,
@@ -56,6 +60,8 @@ void addFilesAndCase(CLI::App& app, CommandLine& line, const std::string& files,
 void addSelection(CLI::App& app, CommandLine& line);
 
 void addQuiet(CLI::App& app, CommandLine& line);
+
+void addVerbose(CLI::App& app, CommandLine& line);
 
 /// Of all commands that run engines on packings: --seed, --quick.
 void addPackings(CLI::App& app, CommandLine& line);

@@ -40,7 +40,7 @@ export class Box2dWorld {
     this.planes = bodies.flatMap((body, b) => body.planes.map((plane) => this.plane(b, body.fromCentre(plane.point), plane.normal)));
     this.steps = 0;
     this.pairs = law.pairs(this.kinds, bodies.length > 0);
-    this.deviations = [{name: 'slop', value: 0.005 * this.unit, unit: 'm', note: 'overlaps up to this are left standing'}];
+    this.deviations = [{name: 'slop', value: 0.005 * this.unit, unit: 'm', note: 'largest overlap that is left standing'}];
   }
 
   free() { b2.b2DestroyWorld(this.world); }

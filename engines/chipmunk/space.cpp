@@ -237,7 +237,7 @@ Json Space::deviations() const {
   return {{{"name", "slop"},
            {"value", slop_},
            {"unit", "m"},
-           {"note", "overlaps up to this are left standing"}}};
+           {"note", "largest overlap that is left standing"}}};
 }
 
 double Space::turn(std::size_t disk) const {

@@ -127,7 +127,7 @@ export class JoltWorld {
     this.balls.forEach((ball) => this.ball(ball));
     this.system.OptimizeBroadPhase();
     this.pairs = law.pairs([...new Set(this.mass)], bodies.length > 0);
-    this.deviations = [{name: 'slop', value: number('slop') * this.unit, unit: 'm', note: 'overlaps up to this are left standing'}];
+    this.deviations = [{name: 'slop', value: number('slop') * this.unit, unit: 'm', note: 'largest overlap that is left standing'}];
   }
 
   /// All of it: a worker loads hundreds of scenes, and what is left behind of each splits the heap, of 128 MB, for the next.

@@ -112,7 +112,7 @@ class Engine {
       deviations.push_back({{"name", "dilation"},
                             {"value", pair.mu * pair.gn},
                             {"unit", "kg/s"},
-                            {"note", "of contacts that slide f_n grows by this times |v_t|"}});
+                            {"note", "growth of f_n with |v_t| where contacts slide"}});
     return {{"engine", "mujoco"},
             {"version", mj_versionString()},
             {"dt", dt},

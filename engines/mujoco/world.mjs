@@ -59,7 +59,7 @@ export class MujocoWorld {
     this.iterations = 0;
     this.pairs = [];
     this.deviations = this.mu > 0 ? [{name: 'dilation', value: this.mu * this.law.gn, unit: 'kg/s',
-                                      note: 'of contacts that slide f_n grows by this times |v_t|'}] : [];
+                                      note: 'growth of f_n with |v_t| where contacts slide'}] : [];
     this.placeMoving();
     this.findForces();
   }

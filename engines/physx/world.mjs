@@ -75,7 +75,7 @@ export class PhysxWorld {
     this.balls = ballsOf(bodies, disks).map((ball) =>
       ({...ball, own: this.actor(this.sphere(ball.radius), ball.surface.point, true, Infinity)}));
     this.pairs = law.pairs(masses, bodies.length > 0, (a, b) => (ofEach.get(a) + ofEach.get(b)) / 2);
-    this.deviations = [{name: 'contact_offset', value: 2 * CONTACT_OFFSET * this.unit, unit: 'm', note: 'contacts act from this gap on'}];
+    this.deviations = [{name: 'contact_offset', value: 2 * CONTACT_OFFSET * this.unit, unit: 'm', note: 'gap from which on contacts act'}];
   }
 
   makeScene(gravity, solver) {

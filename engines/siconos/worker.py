@@ -113,7 +113,7 @@ class Siconos:
             if law.friction > 0:
                 note = "contacts that stick give back nothing of the tangential speed"
                 found.append({"name": "e_t0", "value": 0.0, "unit": "-", "note": note})
-        note = "velocities alone are constrained: what overlaps at the start goes on overlapping, here by up to this"
+        note = "velocities alone are constrained, so that overlaps of the start stay; the largest"
         found.append({"name": "overlaps", "value": self.deepest(), "unit": "m", "note": note})
         return found
 

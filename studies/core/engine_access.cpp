@@ -495,9 +495,9 @@ Suitability suitabilityOf(Engine& engine, const EngineEntry& entry, const Case& 
   for (const Deviation& deviation : deviations)
     found.deviations.push_back(
         deviation.value == 0.0 || deviation.unit.empty() || deviation.unit == "-" ||
-                deviation.note.find(fmt::format("{:g}", deviation.value)) != std::string::npos
+                deviation.note.find(fmt::format("{:.3g}", deviation.value)) != std::string::npos
             ? deviation.note
-            : fmt::format("{} ({:.3g} {})", deviation.note, deviation.value, deviation.unit));
+            : fmt::format("{}: {:.3g} {}", deviation.note, deviation.value, deviation.unit));
   for (const Effect effect : effectsOf(scene))
     if (!effects.contains(effect)) found.notSimulated.emplace_back(toString(effect));
   return found;

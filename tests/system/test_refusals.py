@@ -366,7 +366,7 @@ class Unsupported(SystemTest):
         bare = {"PATH": "/nonexistent"}
         self.assert_one_line(self.compare("--quiet", engines="grain,yade", env=bare), BAD_INPUT, "yade", "PATH", "package yade")
         done = self.held("engines", env=bare)
-        self.assertRegex(done.stdout, r"(?m)^yade +not available: .*package yade")
+        self.assertRegex(done.stdout, r"(?m)^yade +missing: .*package yade")
         short = settings(collision__psi=1.0, collision__steps_per_contact=50, run__mirrors="false")
         done = self.run_program("collide", PAIR, "-k", "spring-cut", "--engines", "all", "--out", self.out, *short, env=bare)
         # There is no gnuplot in PATH either: status 2 for the plots, but the numbers are there.
