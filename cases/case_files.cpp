@@ -11,6 +11,7 @@
 #include "stability/measures.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "support/input_file.hpp"
 #include "support/nearest.hpp"
 
 namespace crossgrain::inline cases {
@@ -75,25 +76,28 @@ bool fitsPattern(const std::string& name, const std::string& pattern) {
   return ::fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
 
-bool fits(const Case& setup, const std::string& pattern) {
-  return fitsPattern(setup.name, pattern) || fitsPattern(nameAndVariant(setup), pattern);
+bool fits(const Case& setup, const std::string& patterns) {
+  return std::ranges::any_of(commaList(patterns), [&](const std::string& pattern) {
+    return fitsPattern(setup.name, pattern) || fitsPattern(nameAndVariant(setup), pattern);
+  });
 }
 
-std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::string& pattern) {
+std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::string& patterns) {
   std::set<std::string> originals;
   std::vector<std::string> names;
   for (const Case& setup : cases) {
-    if (fits(setup, pattern) && isComparedWithFirst(setup)) originals.insert(setup.name);
+    if (fits(setup, patterns) && isComparedWithFirst(setup)) originals.insert(setup.name);
     if (std::ranges::find(names, setup.name) == names.end()) names.push_back(setup.name);
   }
   for (const Case& setup : cases)
     if (!setup.variant.empty()) names.push_back(nameAndVariant(setup));
+  for (const std::string& pattern : commaList(patterns))
+    if (std::ranges::none_of(cases, [&](const Case& setup) { return fits(setup, pattern); }))
+      throw BadInput(fmt::format("-k '{}': no case or variant has that in its name{}", pattern,
+                                 suggestion(pattern, names)));
   std::vector<Case> chosen;
   for (const Case& setup : cases)
-    if (originals.erase(setup.name) > 0 || fits(setup, pattern)) chosen.push_back(setup);
-  if (chosen.empty())
-    throw BadInput(fmt::format("-k '{}': no case or variant has that in its name{}", pattern,
-                               suggestion(pattern, names)));
+    if (originals.erase(setup.name) > 0 || fits(setup, patterns)) chosen.push_back(setup);
   return chosen;
 }
 

@@ -25,13 +25,13 @@ std::vector<CaseSummary> casesBelow(const std::filesystem::path& folder);
 /// Whether a name holds a pattern, or fits it where that has a *, ? or [.
 bool fitsPattern(const std::string& name, const std::string& pattern);
 
-/// Whether a case's NAME, or NAME/VARIANT, does.
-bool fits(const Case& setup, const std::string& pattern);
+/// Whether a case's NAME, or NAME/VARIANT, fits one of these patterns, with commas between them.
+bool fits(const Case& setup, const std::string& patterns);
 
-/// The cases whose NAME, or NAME/VARIANT, holds the pattern, or fits it where it has a * or ?. The
-/// first variant of a case stays where others are measured against it (copies_differ).
+/// The cases that fit, of which each pattern has one. The first variant of a case stays where
+/// others are measured against it (copies_differ).
 /// @throws BadInput if there is none
-std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::string& pattern);
+std::vector<Case> selectedCases(const std::vector<Case>& cases, const std::string& patterns);
 
 /// Reports tell cases by their names. @throws BadInput for a name that two files have
 void requireOwnNames(const std::vector<Case>& cases);

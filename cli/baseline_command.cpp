@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "cases/case_files.hpp"
 #include "cases/flow.hpp"
 #include "cases/loader.hpp"
 #include "cli/option_groups.hpp"
@@ -43,6 +44,7 @@ int keep(const CommandLine& line, const KeepOptions& own) {
         "this one",
         out));
   std::vector<Case> cases = loadCase(line.inputs.front(), line.overrides);
+  if (line.only) cases = selectedCases(cases, *line.only);
   if (isCollision(cases.front()))
     reportKeysWithoutUse(cases.front(), "baseline", stdout);
   else
@@ -81,6 +83,7 @@ Action declareBaseline(CLI::App& app, CommandLine& line) {
   addCase(app, line);
   addEngines(app, line);
   addOverrides(app, line);
+  addSelection(app, line);
   addPackings(app, line);
   addQuiet(app, line);
   const auto own = std::make_shared<KeepOptions>();

@@ -72,6 +72,7 @@ Action declareRecord(CLI::App& app, CommandLine& line) {
   addEngines(app, line);
   addOverrides(app, line);
   addSelection(app, line);
+  addQuiet(app, line);
   const auto out = std::make_shared<std::string>();
   addArgument(app, "--out", *out, "file for it, which must not be there", "FILE");
   const auto time = std::make_shared<std::optional<double>>();
@@ -87,6 +88,7 @@ Action declareReplay(CLI::App& app, CommandLine& line) {
   addArgument(app, "recording", *file, "file that `record` wrote", "FILE");
   addEngines(app, line);
   const auto tolerance = std::make_shared<std::optional<double>>();
+  addQuiet(app, line);
   addNumber(app, "--tolerance", *tolerance,
             "numbers are alike that differ by no more than this part of the largest of their array "
             "(default: 0)");

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ranges>
+#include <iterator>
 
 #include "adapters/suitability.hpp"
 #include "cases/case_files.hpp"
@@ -29,6 +29,7 @@
 #include "studies/lockstep/terms.hpp"
 #include "support/bad_input.hpp"
 #include "support/data_folder.hpp"
+#include "support/input_file.hpp"
 #include "support/interrupt.hpp"
 #include "support/scratch_folder.hpp"
 
@@ -440,22 +441,24 @@ std::vector<ConformanceRow> collisionRows(const EngineEntry& entry, const Capabi
   return rows;
 }
 
-/// Words between commas. @throws BadInput for a word that is in no check's name
-std::vector<std::string> wordsOf(const std::optional<std::string>& list,
-                                 const std::vector<conformance::Check>& checks) {
-  std::vector<std::string> words,
-      names = {"FollowsItsMirrorRolling", "FollowsItsMirrorWithCohesion", "collisions"};
-  if (!list) return words;
-  for (const conformance::Check& check : checks) names.emplace_back(check.name);
-  for (const auto part : std::views::split(*list, ',')) {
-    const std::string& word = words.emplace_back(part.begin(), part.end());
+}  // namespace
+
+std::vector<std::string> conformanceChecks(const std::optional<std::string>& only) {
+  std::vector<std::string> names, words;
+  for (const conformance::Check& check : conformance::allChecks()) names.emplace_back(check.name);
+  for (const char* more : {"FollowsItsMirror", "FollowsItsMirrorRolling",
+                           "FollowsItsMirrorWithCohesion", "collisions"})
+    names.emplace_back(more);
+  if (!only) return names;
+  words = commaList(*only);
+  for (const std::string& word : words)
     if (std::ranges::none_of(names, [&](const auto& name) { return fitsPattern(name, word); }))
       throw BadInput(fmt::format("-k '{}': no check has that in its name", word));
-  }
-  return words;
+  std::erase_if(names, [&](const std::string& name) {
+    return std::ranges::none_of(words, [&](const auto& word) { return fitsPattern(name, word); });
+  });
+  return names;
 }
-
-}  // namespace
 
 ConformanceResults runConformance(const ConformanceTask& task) {
   const auto began = std::chrono::steady_clock::now();
@@ -466,10 +469,9 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   };
   const auto timeIsUp = [&] { return elapsed() > task.budget; };
   std::vector<conformance::Check> checks = conformance::allChecks();
-  const std::vector<std::string> words = wordsOf(task.only, checks);
+  const std::vector<std::string> names = conformanceChecks(task.only);
   const auto wanted = [&](const std::string& name) {
-    return !task.only ||
-           std::ranges::any_of(words, [&](const auto& word) { return fitsPattern(name, word); });
+    return std::ranges::find(names, name) != names.end();
   };
   std::erase_if(checks, [&](const conformance::Check& check) { return !wanted(check.name); });
 

@@ -52,6 +52,10 @@ struct ConformanceTask {
   double budget = std::numeric_limits<double>::infinity();  ///< [s]
 };
 
+/// Names of the checks that runConformance() runs, where it can. @param only  as ConformanceTask
+/// has it @throws BadInput
+std::vector<std::string> conformanceChecks(const std::optional<std::string>& only);
+
 /// The checks, lockstep with the mirror and collisions, one after the other, and the most likely
 /// cause of a failure. Nothing is kept. Checks that would begin after the budget are not tried; a
 /// check that runs is not cut short.

@@ -38,6 +38,7 @@ struct CommandLine {
   std::optional<std::int64_t> seed;    ///< --seed: preparation.seed
   std::optional<std::string> only;     ///< -k: part of the cases
   bool quick = false;
+  bool verbose = false;  ///< -v: all that is known, not a summary
   bool json = false;
 };
 

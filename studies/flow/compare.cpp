@@ -186,8 +186,10 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   campaign.preparePackings();
   LockstepFindings lockstep;
   if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, starts, hasMirror);
-  for (const LockstepRow& row : lockstep.rows)  // the first verdicts; runs take longer
-    campaign.progress().say("lockstep: " + describe(row, lockstep.rules));
+  for (const LockstepRow& row : lockstep.rows) {  // the first verdicts; runs take longer
+    const std::string all = describe(row, lockstep.rules);
+    campaign.progress().say("lockstep: " + all.substr(0, all.find(';')));
+  }
   campaign.timeEngines();
   EndpointFindings endpoints = runWithInterims(setup, campaign, command, lockstep, budget);
   CompareResults results{campaign.study(kindCompare), {}, {}, {}, {}, {}, {}, {}, {}};

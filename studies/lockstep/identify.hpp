@@ -19,11 +19,22 @@ struct FoundOption {
   std::vector<std::string> declared;  ///< empty: the engine says nothing of it
   /// Whether none of the declared ones is among those that fit.
   bool contradicts() const;
+
+  void fields(auto& io) {
+    io("name", name);
+    io("values", values);
+    io("declared", declared);
+  }
 };
 
 struct FoundConstant {
   std::string name;
   double change = 0.0;  ///< relative to the case's
+
+  void fields(auto& io) {
+    io("name", name);
+    io("change", change);
+  }
 };
 
 /// The mirror that follows an engine most closely, found without asking what the engine declares.
@@ -39,6 +50,17 @@ struct Identification {
 
   /// Whether the closest mirror is one: it leaves a hundredth of the separation at most.
   bool closeEnough() const;
+
+  void fields(auto& io) {
+    io("options", options);
+    io("constants", constants);
+    io("missing", missing);
+    io("declared_missing", declaredMissing);
+    io("separation_before", before);
+    io("separation_left", left);
+    io("time_s", time);
+    io("starts", starts);
+  }
 };
 
 /// Failed where there is no mirror, or anything is other than the engine declares.

@@ -331,7 +331,7 @@ class InterimAnalyses(SystemTest):
     )  # fmt: skip
 
     def compare_short(self, engines, *arguments):
-        return self.run_program("compare", COUETTE, "--engines", engines, "--out", self.out, *self.SHORT, *arguments)
+        return self.run_program("compare", COUETTE, "--engines", engines, "--out", self.out, "-v", *self.SHORT, *arguments)
 
     def test_mirror_is_evaluated_in_place_of_its_peer(self):
         done = self.compare_short("grain,box2d-penalty")
