@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include "support/bad_input.hpp"
 #include "support/data_folder.hpp"
 #include "support/nearest.hpp"
+#include "support/terminal.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -118,26 +120,21 @@ const std::vector<Subject> subjects = {
     {"measures", listMeasures, {"name", "unit", "what"}},
     {"keys", listKeys, {"section", "key", "unit", "default", "values", "what"}}};
 
-/// Characters, not bytes: names of units are not all ASCII.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
-}
-
-/// Columns side by side, the last one open.
+/// Columns side by side, the last one in as many lines as it takes.
 void print(const json& rows, const std::vector<const char*>& columns) {
   std::vector<std::string> lines(rows.size());
+  std::size_t last = 0;  // where that column begins
   for (const char* const column : columns) {
     std::size_t widest = 0;
-    for (const std::string& line : lines) widest = std::max(widest, width(line));
-    for (std::size_t k = 0; k < lines.size(); ++k) {
-      if (column != columns.front()) lines[k].append(widest + 2 - width(lines[k]), ' ');
-      lines[k] += rows[k][column].get<std::string>();
-    }
+    for (const std::string& line : lines) widest = std::max(widest, displayWidth(line));
+    last = column == columns.front() ? 0 : widest + 2;
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      lines[k] = padded(lines[k], last) + rows[k][column].get<std::string>();
   }
+  const std::size_t width = terminalWidth(STDOUT_FILENO), room = 24;
   for (std::string& line : lines) {
     line.erase(line.find_last_not_of(' ') + 1);
-    fmt::print("{}\n", line);
+    fmt::print("{}\n", wrapped(line, width, last + room <= width ? last : 4));
   }
 }
 

@@ -24,7 +24,7 @@ PROGRAM = os.environ["CROSSGRAIN"]
 # Examples and engines of tests say "python3": the one that runs these tests has numpy, the first in PATH need not.
 os.environ["PATH"] = f"{pathlib.Path(sys.executable).parent}:{os.environ['PATH']}"
 # Sentences are looked for in one line; tests of terminals say how wide theirs is.
-os.environ["COLUMNS"] = "1000"
+os.environ["COLUMNS"] = "5000"
 HOME = pathlib.Path(__file__).resolve().parents[2]
 BUILD = pathlib.Path(os.environ.get("CROSSGRAIN_BUILD", HOME / "build/release"))
 CASES = HOME / "cases"

@@ -84,6 +84,20 @@ class Check(SystemTest):
         self.assertEqual(len(able), len(re.findall(r"µs a step: .* a packing, \d+ MB", done.stdout)))
         self.assertEqual([], list(self.folder.iterdir()))
 
+    def test_a_scene_that_an_engine_cannot_be_given_is_a_failure_only_of_one_that_was_named(self):
+        space = CASES / "space/pile.toml"
+        every = self.check(space, engines="all")
+        self.assert_status(every, HELD)
+        self.assertRegex(every.stdout, r"(?m)^  box2d-penalty +cannot: has dimension = 2, not 3$")
+        named = self.check(space, engines="grain,box2d-penalty")
+        self.assert_status(named, FELL_SHORT)
+        self.assertIn("status 1: box2d-penalty cannot run it\n", named.stdout)
+
+    def test_numbers_of_differences_are_in_their_sentences(self):
+        done = self.held("check", COUETTE, "--no-timing", "--engines", "box2d-impulse")
+        for line in (r"largest rounding of positions to float32: 3\.73e-09 m", r"speed above which Box2D slows disks: 1\.3 m/s"):
+            self.assertRegex(done.stdout, rf"(?m)^    differs: {line}$")
+
     def test_refusal_is_status_1(self):
         done = self.check(COUETTE, *settings(run__may_differ=["rounding"]), engines="grain,box2d-impulse")
         self.assert_status(done, FELL_SHORT)

@@ -1,9 +1,10 @@
 """Progress and colours: redrawn in place with the time left on a terminal, plain lines elsewhere."""
 
+import json
 import re
 import unittest
 
-from harness import COUETTE, HARD_SPHERE, HELD, SystemTest, on_terminal, settings
+from harness import BAD_INPUT, COUETTE, HARD_SPHERE, HELD, SystemTest, on_terminal, settings
 
 ESCAPE = re.compile(r"\x1b\[\d+m")
 
@@ -61,6 +62,60 @@ class Terminal(SystemTest):
             narrow = ESCAPE.sub("", drawn(columns)).partition("report: ")[0]
             self.assertLessEqual(max(map(len, narrow.splitlines())), columns)
             self.assertEqual(narrow, self.run_program(*command, env={"COLUMNS": str(columns)}).stdout.partition("report: ")[0])
+
+
+class Summaries(SystemTest):
+    """At 80 columns."""
+
+    WIDTH = {"COLUMNS": "80"}
+
+    def assert_fits(self, text):
+        self.assertLessEqual(max(map(len, text.splitlines())), 80, text)
+
+    def test_compare_has_a_line_for_each_engine_and_value_difference_and_verdict_of_each_endpoint(self):
+        command = ["compare", COUETTE, "--engines", "grain,box2d-penalty", "--out", self.out, "--quick", "--no-causes"]
+        command += settings(averaging__rotations=0.05, preparation__packings=4)
+        done = self.run_program(*command, env=self.WIDTH)
+        self.assert_fits(done.stdout)
+        self.assertLessEqual(len(done.stdout.splitlines()), 40, done.stdout)
+        rows = [row for row in self.rows("endpoints.csv") if row["kind"] == "peer"]
+        self.assertEqual(9, len(rows))
+        self.assertEqual(9, len(re.findall(r"(?m)^\S[^:]*: grain \S+.*, margin \S+", done.stdout)))
+        answers = re.findall(r"(?m)^  box2d-penalty +\S+ +[+−]\S+ \(\S+ to \S+\) +\S (.*)$", done.stdout)
+        agree = {"no_difference_seen": "agree", "small_difference": "agree"}
+        self.assertEqual([agree.get(row["answer"], row["answer"]) for row in rows], answers)
+        self.assertEqual(2, len(re.findall(r"(?m)^(?:grain|box2d-penalty)  ", done.stdout)))
+        self.assertNotIn("evaluated through", done.stdout)
+        again = self.run_program(*command, env=self.WIDTH)
+        self.assertEqual(done.stdout, again.stdout)
+        self.assertRegex(again.stderr, r"(?m)^\d+ packings and \d+ runs kept$")
+        self.assertNotRegex(again.stderr, r"(?m)^\[\d|to do$")
+        everything = self.run_program(*command, "-v", env=self.WIDTH).stdout
+        self.assert_fits(everything)
+        self.assertIn("evaluated through", everything)
+
+    def test_engines_have_a_line_each_and_one_is_printed_in_full(self):
+        table = self.held("engines", env=self.WIDTH).stdout
+        self.assert_fits(table)
+        known = json.loads(self.held("engines", "--json").stdout)
+        for engine in known:
+            lines = re.findall(rf"(?m)^{re.escape(engine['name'])}  .*$", table)
+            self.assertEqual(0 if engine["mirrors"] else 1, len(lines), engine["name"])
+            if not lines:
+                continue
+            if "missing" in engine:
+                self.assertIn("missing: ", lines[0])
+            else:
+                self.assertIn(engine["kind"], lines[0])
+                self.assertEqual(engine["dimensions"], engine["capabilities"].get("dimensions", [2]))
+                self.assertEqual({2: "disk", 3: "sphere"}[engine["dimensions"][0]], engine["shapes"][0])
+        impulse = next(engine for engine in known if engine["name"] == "box2d-impulse")
+        self.assertEqual((["disk", "polygon", "capsule"], "rigid"), (impulse["shapes"], impulse["kind"]))
+        full = self.held("engines", "box2d-impulse", env=self.WIDTH).stdout
+        self.assert_fits(full)
+        self.assertRegex(full, r"(?m)^  bodies +disk, polygon, capsule$")
+        self.assertNotIn("grain:", full)
+        self.assert_one_line(self.run_program("engines", "box2d"), BAD_INPUT, "there is no engine 'box2d'")
 
 
 if __name__ == "__main__":
