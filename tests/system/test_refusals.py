@@ -32,7 +32,7 @@ COMMAND_LINE = {
     f"compare {CELL} --out=out --engines": "--engines needs a value (engines",
     f"compare {CELL} --engines grain --out ''": "--out",
     f"check {CELL} {PAIR}": "figure-4-3.toml' is one argument too many: check takes case",
-    "engines grain": "'grain' is one argument too many: engines takes none",
+    "engines grian": "there is no engine 'grian' (did you mean grain?)",
     f"compare {CELL} {RUN} --out b": "--out is given twice",
     f"compare {CELL} {RUN} --json=maybe": "--json takes no value",
     f"stability {RUN} --transforms --in-space": "--transforms and --in-space do not go together",
