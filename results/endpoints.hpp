@@ -53,6 +53,9 @@ struct EndpointRow {
   std::string marginWhy;
   Verdict verdict = Verdict::undecided;  ///< notMeasured: the files of one have no such number
   std::optional<double> reference;  ///< mean over the packings of a, or the expected value [unit]
+  /// Halves of the intervals of both means, over packings or within one run each, at the confidence
+  /// of the averaging [unit]; absent of a single value.
+  std::optional<double> referenceHalf, valueHalf;
   std::optional<double> difference, low, high;  ///< b − a, with the interval of the verdict [unit]
   /// The difference in margins, with its interval: engines rank by it. With a bound the interval is
   /// wider by it.
@@ -69,6 +72,10 @@ struct EndpointRow {
   std::optional<double> bound;         ///< B of those mirrors, in margins
   std::optional<double> reach;         ///< part of B: what the followed runs could have missed
 
+  /// Value of b [unit]: what the difference makes of the reference.
+  std::optional<double> value() const {
+    return reference && difference ? std::optional(*reference + *difference) : std::nullopt;
+  }
   /// Whether a difference is shown, within the margin or not: 0 is outside its interval, that
   /// without B.
   bool differenceSeen() const {
@@ -96,6 +103,8 @@ struct EndpointRow {
     else
       io("answer", word);
     io("reference", reference);
+    io.present("reference_half", referenceHalf);
+    io.present("value_half", valueHalf);
     io("difference", difference);
     io("low", low);
     io("high", high);

@@ -13,6 +13,9 @@ namespace {
 /// Of a value that an error stands beside: a smaller error has a power of ten of its own.
 constexpr int mostValueDigits = 6;
 
+/// Of a value: what computing with 53 bits does to it.
+constexpr double rounding = 1e-12;
+
 /// The decimal exponent after rounding to that many digits: 9.996 has 1 with three of them.
 int exponentOf(double value, int digits) {
   if (value == 0.0) return 0;
@@ -52,6 +55,15 @@ std::string fixed(double value, int decimals) {
   return typeset(result);
 }
 
+/// To so many significant digits.
+std::string withDigits(std::optional<double> value, int digits) {
+  if (!value || !std::isfinite(*value)) return absentText;
+  if (*value == 0.0) return "0";
+  const int exponent = exponentOf(*value, digits);
+  if (plain(exponent)) return fixed(*value, digits - 1 - exponent);
+  return fixed(*value / std::pow(10.0, exponent), digits - 1) + timesPowerOfTen(exponent);
+}
+
 }  // namespace
 
 std::optional<double> finite(std::optional<double> value) {
@@ -67,11 +79,14 @@ std::optional<double> at(const std::vector<double>& list, std::size_t k) {
 }
 
 std::string readable(std::optional<double> value) {
-  if (!finite(value)) return absentText;
-  if (*value == 0.0) return "0";
-  const int exponent = exponentOf(*value, 3);
-  if (plain(exponent)) return fixed(*value, 2 - exponent);
-  return fixed(*value / std::pow(10.0, exponent), 2) + timesPowerOfTen(exponent);
+  return withDigits(value, 3);
+}
+
+std::pair<std::string, std::string> readablePair(std::optional<double> a, std::optional<double> b) {
+  int digits = 3;
+  if (finite(a) && finite(b) && std::abs(*a - *b) > rounding * std::max(std::abs(*a), std::abs(*b)))
+    while (digits < 13 && withDigits(a, digits) == withDigits(b, digits)) ++digits;
+  return {withDigits(a, digits), withDigits(b, digits)};
 }
 
 std::string readableSetting(std::optional<double> value) {
@@ -93,7 +108,8 @@ std::string readableCount(std::optional<double> value) {
 }
 
 std::string readable(std::optional<double> value, std::optional<double> error) {
-  if (!finite(value) || !finite(error) || *error == 0.0) return readable(value);
+  if (!finite(value) || !finite(error) || *error <= rounding * std::abs(*value))
+    return readable(value);
   const double larger = std::max(std::abs(*value), std::abs(*error));
   const int magnitude = exponentOf(larger, 3);
   const int shift = plain(magnitude) ? 0 : magnitude;
@@ -116,6 +132,22 @@ std::string readableDifference(std::optional<double> value, std::optional<double
   const std::string both = readable(value, error);
   if (!value || *value <= 0.0) return both;
   return both.starts_with('(') ? "(+" + both.substr(1) : "+" + both;
+}
+
+std::string readableInterval(std::optional<double> value, std::optional<double> low,
+                             std::optional<double> high) {
+  if (!finite(value) || !finite(low) || !finite(high) || !(*low < *high))
+    return readableDifference(value, {});
+  const double larger = std::max({std::abs(*value), std::abs(*low), std::abs(*high)});
+  const int magnitude = exponentOf(larger, 3), shift = plain(magnitude) ? 0 : magnitude;
+  const int decimals =
+      std::clamp(1 - exponentOf(0.5 * (*high - *low), 2), -magnitude, mostValueDigits - magnitude) +
+      shift;
+  const auto signedText = [&](double number) {
+    return (number > 0.0 ? "+" : "") + fixed(number / std::pow(10.0, shift), decimals);
+  };
+  return fmt::format("{} ({} to {}){}", signedText(*value), signedText(*low), signedText(*high),
+                     shift == 0 ? "" : timesPowerOfTen(shift));
 }
 
 std::string readablePercent(double fraction) {

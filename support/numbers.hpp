@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 /// Numbers for people to read, as plain text. Absent is "–".
@@ -31,11 +32,21 @@ std::string counted(std::size_t count, std::string_view noun);
 std::string readableCount(std::optional<double> value);
 
 /// Value and standard error, both to the error's second digit: 0.242 ± 0.013; where the value would
-/// have more than six digits, the error by itself: 0.0183780 ± 2.0×10⁻¹⁰.
+/// have more than six digits, the error by itself: 0.0183780 ± 2.0×10⁻¹⁰. An error that is rounding
+/// is none.
 std::string readable(std::optional<double> value, std::optional<double> error);
+
+/// Two values with as many digits as tell them apart, three at least; what rounding does is no
+/// difference: 0.06882 and 0.06885.
+std::pair<std::string, std::string> readablePair(std::optional<double> a, std::optional<double> b);
 
 /// The same with the sign always there, for differences.
 std::string readableDifference(std::optional<double> value, std::optional<double> error);
+
+/// A difference and its interval, all to the second digit of half of that: "−0.0083 (−0.0155 to
+/// −0.0008)", "+437 (+420 to +454)"; without an interval the difference alone.
+std::string readableInterval(std::optional<double> value, std::optional<double> low,
+                             std::optional<double> high);
 
 /// A fraction ≥ 0 in per cent, whole or, below one, to its first digit: "40", "0.3".
 std::string readablePercent(double fraction);

@@ -55,14 +55,15 @@ std::size_t indexLength(std::string_view words) {
 }
 
 /// Whether a _ or ^ at k marks what follows it. Below the line stands what follows a symbol of one
-/// letter, k_n or ΩR_i; words of several are names that people gave, spring_dashpot.
+/// letter, k_n or ΩR_i; words of several are names that people gave, spring_dashpot or b2_version.
 bool isMark(std::string_view words, std::size_t k) {
   if ((words[k] != '_' && words[k] != '^') || k == 0 || words[k - 1] == ' ') return false;
   const auto before = [&](std::size_t back) {
     return k >= back ? static_cast<unsigned char>(words[k - back])
                      : static_cast<unsigned char>(' ');
   };
-  const bool ofName = std::isalpha(before(1)) && (std::isalpha(before(2)) || before(2) == '_');
+  const bool ofName = std::isalpha(before(1)) ? std::isalpha(before(2)) || before(2) == '_'
+                                              : std::isdigit(before(1)) && std::isalpha(before(2));
   return words[k] == '^' || !ofName;
 }
 

@@ -187,7 +187,7 @@ std::string endpointsCsv(const CompareResults& results) {
   std::string table =
       "a,b,kind,endpoint,unit,margin,answer,difference,low,high,distance,distance_low,distance_"
       "high,look,packings,lost,needs,needs_at_most,carrier_a,carrier_b,bound,regimes_differ,"
-      "reference,reason,reach,basis,packings_a,packings_b\n";
+      "reference,reason,reach,basis,packings_a,packings_b,reference_half,value,value_half\n";
   for (const EndpointRow& entry : results.endpoints.rows) {
     const auto margin = entry.marginRelative && entry.reference
                             ? std::optional(entry.margin * std::abs(*entry.reference))
@@ -201,7 +201,8 @@ std::string endpointsCsv(const CompareResults& results) {
                  entry.surrogateA, entry.surrogateB, entry.bound,
                  regimesDiffer(results.regimes, entry.a, entry.b), entry.reference, entry.reason,
                  entry.reach, basisOf(entry), runs ? std::optional<double>(runs->a) : std::nullopt,
-                 runs ? std::optional<double>(runs->b) : std::nullopt);
+                 runs ? std::optional<double>(runs->b) : std::nullopt, entry.referenceHalf,
+                 entry.value(), entry.valueHalf);
   }
   return table;
 }

@@ -81,11 +81,8 @@ std::string describeNeeds(const EndpointRow& row) {
 
 std::string describeValue(const EndpointRow& row) {
   const std::string unit = row.unit == "-" ? "" : " " + row.unit;
-  const auto expected = finite(row.reference), difference = finite(row.difference);
-  const auto number = [](double value) { return fmt::format("{:.6g}", value); };
-  return fmt::format("{} for {}{}",
-                     expected && difference ? number(*expected + *difference) : absentText,
-                     expected ? number(*expected) : absentText, unit);
+  const auto [value, expected] = readablePair(row.value(), row.reference);
+  return fmt::format("{} for {}{}", value, expected, unit);
 }
 
 std::string describeSurrogate(const EndpointRow& row) {

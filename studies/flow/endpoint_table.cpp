@@ -8,6 +8,7 @@
 #include <map>
 
 #include "averaging/agreement.hpp"
+#include "averaging/statistics.hpp"
 #include "cases/endpoints.hpp"
 #include "cases/flow.hpp"
 #include "studies/flow/endpoint_values.hpp"
@@ -57,12 +58,28 @@ EndpointRow emptyRow(const ComparedPair& pair, const Endpoint& endpoint, const M
   return row;
 }
 
+/// Half of the interval of a mean over packings; absent with fewer than two of them.
+std::optional<double> halfOf(const Numbers& values, double confidence) {
+  const auto mean = ensembleMean(values);
+  if (!mean || !mean->standardError) return std::nullopt;
+  return studentQuantile(confidence, mean->packings - 1) * *mean->standardError;
+}
+
+/// The same within one run, by what its endpoints are known by.
+std::optional<double> halfOf(const FlowRun& run, std::string_view endpoint, double confidence) {
+  const auto own = std::ranges::find(run.endpointErrors, endpoint, &EndpointError::endpoint);
+  if (own == run.endpointErrors.end() || own->dof < 1.0) return std::nullopt;
+  return studentQuantile(confidence, own->dof) * own->standardError;
+}
+
 EndpointTest testOf(const Case& setup, const ComparedPair& pair, const Endpoint& endpoint,
                     const Numbers& reference, const Numbers& other) {
   const Margin& margin = setup.averaging.endpoints.at(std::string(endpoint.name));
   EndpointTest own{emptyRow(pair, endpoint, margin),
                    testedEndpoint(endpoint, margin, reference, other)};
   own.row.reason = whyNoRatio(endpoint, reference, other);
+  own.row.referenceHalf = halfOf(reference, setup.averaging.confidence);
+  own.row.valueHalf = halfOf(other, setup.averaging.confidence);
   return own;
 }
 
@@ -173,6 +190,8 @@ std::vector<EndpointTest> familyOf(const Case& setup, std::span<const FlowRun> r
     };
     if (independent && able.ours.front().size() == 1 && able.theirs.size() == 1) {
       const FlowRun &a = *able.ours.front().front(), &b = *able.theirs.front();
+      own.row.referenceHalf = halfOf(a, endpoint.name, setup.averaging.confidence);
+      own.row.valueHalf = halfOf(b, endpoint.name, setup.averaging.confidence);
       if (const FlowRun* const without = addOwnErrors(own.test, a, b, endpoint.name))
         addReason(missingErrorReason(endpoint, *without));
     }

@@ -60,8 +60,10 @@ TEST(Csv, Endpoints_HaveTheAnswerAndWhatItRestsOn) {
   row.marginRelative = true;
   // Without a reference a quarter of it is unknown: the fraction stands.
   EXPECT_EQ(rowsOf(endpointsCsv(results)),
-            "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,,,,,,,\n");
+            "one,two,peer,pressure,N/m²,0.25,undecided,,,,,,,,0,0,,,,,,,,,,,,,,,\n");
   row.reference = 200.0;
+  row.referenceHalf = 12.0;
+  row.valueHalf = 14.0;
   row.verdict = Verdict::pass;
   row.difference = 20.0;
   row.distance = 0.4;
@@ -75,9 +77,9 @@ TEST(Csv, Endpoints_HaveTheAnswerAndWhatItRestsOn) {
   results.regimes = {{"one", "two", PairKind::peer, 4, {1, 3}}};
   EXPECT_EQ(rowsOf(endpointsCsv(results)),
             "one,two,peer,pressure,N/m²,50,small_difference,20,,,0.4,,,2,15,1,,,,mirror,"
-            "0.01,2,200,why one is lost,0.002,paired,,\n");
+            "0.01,2,200,why one is lost,0.002,paired,,,12,220,14\n");
   row.unpaired = {Basis::oneScatter, 15, 1};
-  EXPECT_TRUE(endpointsCsv(results).ends_with(",0.002,one_scatter,15,1\n"));
+  EXPECT_TRUE(endpointsCsv(results).ends_with(",0.002,one_scatter,15,1,12,220,14\n"));
 }
 
 TEST(Csv, SweepWithoutPoints_IsOneRowWithItsStatus) {

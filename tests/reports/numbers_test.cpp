@@ -8,6 +8,8 @@
 namespace crossgrain::reports {
 namespace {
 
+using namespace std::string_literals;
+
 TEST(Numbers, Readable_HasThreeSignificantDigits) {
   EXPECT_EQ(readable(0.0), "0");
   EXPECT_EQ(readable(0.0123456), "0.0123");
@@ -30,11 +32,27 @@ TEST(Numbers, Error_HasTwoDigitsAndTheValueStopsWithThem) {
   // An error far below the value has digits of its own: never ± 0.
   EXPECT_EQ(readable(0.018378, 2.04e-10), "0.0183780\u00a0±\u00a02.0×10⁻¹⁰");
   EXPECT_EQ(readable(0.018378, 4.2e-7), "0.0183780\u00a0±\u00a04.2×10⁻⁷");
-  EXPECT_EQ(readable(-3.2e-7, 1.1e-19), "−3.20000×10⁻⁷\u00a0±\u00a01.1×10⁻¹⁹");
+  EXPECT_EQ(readable(-3.2e-7, 1.1e-18), "−3.20000×10⁻⁷\u00a0±\u00a01.1×10⁻¹⁸");
+  // What rounding leaves of the same number twice is no error.
+  EXPECT_EQ(readable(0.6891667, 5.7e-17), "0.689");
   EXPECT_EQ(readable(123456.0, 0.012), "123\u202f456\u00a0±\u00a00.012");
   EXPECT_EQ(readable(1e-12, 0.5), "0.00\u00a0±\u00a00.50");
   EXPECT_EQ(readableDifference(0.24178, 0.0131), "+0.242\u00a0±\u00a00.013");
   EXPECT_EQ(readableDifference(-0.24178, 0.0131), "−0.242\u00a0±\u00a00.013");
+}
+
+TEST(Numbers, Pair_HasDigitsUntilTheTwoDiffer) {
+  EXPECT_EQ(readablePair(586507.0, 586507.3), std::pair("586\u202f507.0"s, "586\u202f507.3"s));
+  EXPECT_EQ(readablePair(206.4, 643.1), std::pair("206"s, "643"s));
+  EXPECT_EQ(readablePair(0.1, 0.1 + 1e-16), std::pair("0.100"s, "0.100"s));
+  EXPECT_EQ(readablePair(std::nullopt, 2.0), std::pair("–"s, "2.00"s));
+}
+
+TEST(Numbers, Interval_HasTheDigitsOfItsWidth) {
+  EXPECT_EQ(readableInterval(437.2, 420.4, 454.1), "+437 (+420 to +454)");
+  EXPECT_EQ(readableInterval(-0.00829, -0.0155, -0.000782), "−0.0083 (−0.0155 to −0.0008)");
+  EXPECT_EQ(readableInterval(1e-9, -3e-8, 3.2e-8), "+0.1 (−3.0 to +3.2)×10⁻⁸");
+  EXPECT_EQ(readableInterval(0.25, std::nullopt, std::nullopt), "+0.250");
 }
 
 TEST(Numbers, Setting_KeepsItsDigits) {
@@ -70,8 +88,8 @@ TEST(Labels, Fields_AreTypesetAndEscaped) {
   EXPECT_EQ(fieldLabel("stress_rp"), "shear stress σ_rφ");
   EXPECT_EQ(fieldLabel("my_<field>"), "my <field>");
   EXPECT_EQ(mathHtml("σ_rφ ∝ r^p & x _y"), "σ<sub>rφ</sub> ∝ r<sup>p</sup> &amp; x _y");
-  EXPECT_EQ(mathHtml("spring_dashpot-cut, Ψ_i, 2R_i, ΩR_i"),
-            "spring_dashpot-cut, Ψ<sub>i</sub>, 2R<sub>i</sub>, ΩR<sub>i</sub>");
+  EXPECT_EQ(mathHtml("spring_dashpot-cut, b2_version, Ψ_i, 2R_i, ΩR_i"),
+            "spring_dashpot-cut, b2_version, Ψ<sub>i</sub>, 2R<sub>i</sub>, ΩR<sub>i</sub>");
   EXPECT_EQ(mathHtml("k_n, t_c/50 (Ψ_f) of my_engine_n & <i>"),
             "k<sub>n</sub>, t<sub>c</sub>/50 (Ψ<sub>f</sub>) of my_engine_n &amp; &lt;i&gt;");
   EXPECT_EQ(mathHtml("σ_φr·2πr²h"), "σ<sub>φr</sub>·2πr²h");
