@@ -67,7 +67,7 @@ def _one(found, what, names):
 class Profile:
     """One field in the bins of one engine: time means over a run, or over all of its packings."""
 
-    engine: str
+    engine: str  #: whose runs it is of
     packing: object  #: index of the packing, or "all": the mean over packings
     method: str  #: of weighing disks: "slicing", "centre", …
     field: str  #: as in profiles.csv: "volume_fraction", "stress_rr", …
@@ -122,18 +122,30 @@ class Results:
                 columns = {name: _numbers(profile.get(name, [])) for name in ("mean", "stderr", "n_eff")}
                 yield Profile(source["engine"], packing, profile["method"], profile["field"], profile["unit"], **columns, **places)
 
+    def runs_of_verdicts(self, engine):
+        """Name of the engine whose runs verdicts on this one rest on: its mirror, where it is evaluated through that."""
+        carried = self.document.get("endpoints", {}).get("carried", [])
+        return next((own["mirror"] for own in carried if own["engine"] == engine and own["carried"]), engine)
+
     def profile(self, field, engine=None, packing=None, method=None):
-        """One Profile. engine: default the reference; packing: an index or "all", default the mean over packings
-        where there are several, else that run; method: default the first of the case, which verdicts are of."""
+        """One Profile. engine: default the reference; packing: an index, which is that single run of the engine, or "all",
+        the mean over packings; default: what verdicts on the engine rest on, that is the mean of its own runs or, where it
+        is evaluated through its mirror, of the mirror's, whose name the Profile then has. KeyError where that would be a
+        single run beside means of others. method: default the first of the case, which verdicts are of."""
         everything = list(self._all_profiles())
         engine = engine or self._reference()
         method = method or self.document.get("averaging", {}).get("method")
+        if packing is None:
+            engine = self.runs_of_verdicts(engine)
         of_engine = [p for p in everything if p.engine == engine]
         _one(of_engine, f"profile of {engine}", {p.engine for p in everything})
         of_field = [p for p in of_engine if p.field == field and p.method == method]
         _one(of_field, f"field {field} by {method}", {f"{p.field} by {p.method}" for p in of_engine})
         if packing is None:
-            packing = "all" if sum(p.packing != "all" for p in of_field) > 1 else of_field[0].packing
+            runs = sum(p.packing != "all" for p in of_field)
+            packing = "all" if runs > 1 else of_field[0].packing
+            if runs == 1 and any(p.packing == "all" for p in everything):
+                raise KeyError(f"no verdict rests on the single run of {engine}: ask for it by packing={packing}")
         return _one([p for p in of_field if p.packing == packing], f"packing {packing}", {p.packing for p in of_field})
 
     def profiles(self):

@@ -2,6 +2,7 @@
 gives the same numbers. tests/unit/write_snapshots_test.cpp has the formats by hand, tests/averaging/mercurycg_test.cpp
 averages them."""
 
+import json
 import re
 import sys
 import unittest
@@ -357,6 +358,32 @@ class PythonReader(OneRun):
         chosen = file["engine"] == "grain"
         for name in ("t_s", "kinetic_energy", "wheel_torque"):
             np.testing.assert_array_equal(series[name], file[name][chosen], name)
+
+    def test_a_single_run_is_asked_for_by_its_packing(self):
+        """Beside means of others: by itself a profile is what verdicts rest on."""
+
+        def of(engine, packing, mean):
+            profile = {"method": "slicing", "field": "spin", "unit": "rad/s", "mean": [mean], "stderr": [0.1], "n_eff": [1]}
+            return {"engine": engine, "packing": packing, "profiles": [profile]}
+
+        runs = [of(engine, k, value + k) for engine, value in (("ours", 0.0), ("mirror", 2.0)) for k in (0, 1)]
+        document = {
+            "schema": crossgrain.SCHEMA,
+            "kind": "compare",
+            "engines": [{"name": "ours"}, {"name": "peer"}, {"name": "other"}],
+            "averaging": {"method": "slicing"},
+            "runs": [*runs, of("peer", 0, 9.0), of("other", 0, 8.0)],
+            "ensemble": [of("ours", "all", 0.5), of("mirror", "all", 2.5)],
+            "endpoints": {"rows": [], "carried": [{"engine": "peer", "mirror": "mirror", "carried": True}]},
+        }
+        (self.folder / "results.json").write_text(json.dumps(document))
+        results = crossgrain.Results(self.folder)
+        profile = results.profile("spin", engine="peer")
+        self.assertEqual(("mirror", "all", 2.5), (profile.engine, profile.packing, profile.mean[0]))
+        self.assertEqual(9.0, results.profile("spin", engine="peer", packing=0).mean[0])
+        with self.assertRaisesRegex(KeyError, "ask for it by packing=0"):
+            results.profile("spin", engine="other")
+        self.assertEqual(8.0, results.profile("spin", engine="other", packing=0).mean[0])
 
     def test_what_is_not_there_is_said(self):
         results = crossgrain.Results(self.ran)
