@@ -17,10 +17,6 @@ namespace {
 
 using Kind = Column::Kind;
 
-bool contains(const Names& names, const std::string& name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
 /// Adds a row unless the table has it: engines report some things again for every run.
 void addRowOnce(Table& table, const Names& texts) {
   const bool known = std::ranges::any_of(table.rows, [&](const TableRow& row) {

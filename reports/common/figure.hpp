@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -76,6 +77,12 @@ int widthOf(const Figure& figure);
 /// Makes the y axis logarithmic where all values are positive and differ tenfold or more, so that
 /// one engine far off does not flatten the others.
 void chooseLogY(Panel& panel);
+
+/// Names that a key may have: more would leave the plot no room.
+inline constexpr std::size_t mostKeyNames = 8;
+
+/// Whether a panel that asks for a key has none, as there are too many curves to name.
+bool keyIsTooLong(const Panel& panel);
 
 /// Whether anything of a curve lies within the panel: a key names nothing else.
 bool isSeen(const Panel& panel, const Curve& curve);

@@ -26,6 +26,13 @@ struct Square {
   std::string title;
 };
 
+/// An interval on an axis of margins, whose band reaches from −1 to 1.
+struct MarginBar {
+  double middle = 0.0;
+  std::optional<double> low, high;
+  std::string title;  ///< in words
+};
+
 struct Cell {
   std::string text;
   Names notes;                     ///< in smaller letters below
@@ -33,6 +40,7 @@ struct Cell {
   bool marked = false;             ///< the verdict's mark stands before the text
   std::string link = {};           ///< "#id" or another page; empty: none
   std::vector<Square> strip = {};
+  std::optional<MarginBar> bar = {};
 
   Cell(std::string text_ = {}, Names notes_ = {}, std::optional<Verdict> verdict_ = {},
        bool marked_ = false)
@@ -45,10 +53,11 @@ struct Cell {
 struct Column {
   enum class Kind {
     words,
-    number,  ///< to the right, on one line
-    remark,  ///< long words, of limited width
-    engine,  ///< the name is an engine's: its colour stands beside it
-    engines  ///< the cells are engines' names: each has its colour beside it
+    number,   ///< to the right, on one line
+    remark,   ///< long words, of limited width
+    engine,   ///< the name is an engine's: its colour stands beside it
+    engines,  ///< the cells are engines' names: each has its colour beside it
+    margins   ///< the cells are bars on one axis, which the head has
   };
   std::string name;
   Kind kind = Kind::words;
@@ -68,7 +77,7 @@ inline Column engineNames(std::string name) {
 
 struct TableRow {
   std::vector<Cell> cells;  ///< the first is the row's name
-  std::string group = {};   ///< a heading above the row, across all columns; empty: none
+  std::string group = {};   ///< a heading above the row, or an engine's name; empty: none
   std::string id = {};      ///< to link to
 };
 
@@ -77,6 +86,7 @@ struct Table {
   std::vector<TableRow> rows = {};
   std::string note = {};  ///< below it, in smaller letters
   bool dense = false;     ///< of thousands of numbers
+  double reach = 0.0;     ///< where the axis of its bars ends [margins]
 };
 
 struct Paragraph {
@@ -127,6 +137,7 @@ struct Section {
   std::string id, title;
   Blocks blocks;
   std::string shortTitle = {};  ///< in the list of sections; empty: the title
+  bool folded = false;
 };
 
 /// One thing that was judged, or that could not be.
@@ -160,7 +171,7 @@ struct Report : ReportDigest {
 
   Section& section(std::string id, std::string title, std::string shortTitle = {}) {
     return sections.emplace_back(
-        Section{std::move(id), std::move(title), {}, std::move(shortTitle)});
+        Section{std::move(id), std::move(title), {}, std::move(shortTitle), false});
   }
 };
 

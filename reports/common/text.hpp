@@ -69,6 +69,10 @@ void addOnce(std::vector<T>& list, const std::type_identity_t<T>& value) {
   if (std::ranges::find(list, value) == list.end()) list.push_back(value);
 }
 
+inline bool contains(const Names& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
 /// The first element of which that is true; null without one.
 auto findIf(const auto& list, const auto& isIt) -> decltype(&*list.begin()) {
   const auto found = std::ranges::find_if(list, isIt);

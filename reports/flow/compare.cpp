@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/report.hpp"
@@ -13,167 +14,6 @@
 namespace crossgrain::reports {
 
 namespace {
-
-/// The matrix' mark and colour of the same answer. @param brief  the distance alone
-Cell answerCell(const CompareResults& results, const EndpointRow* row, bool brief = false) {
-  if (!row) return absentText;
-  const std::optional<Verdict> verdict = endpointCell(results, *row).verdict;
-  std::string word = wordOf(*row);
-  if (verdict == Verdict::modelDifference) word += " by the declared law";
-  if (verdict == Verdict::notMeasured && row->verdict != verdict) word = "not judged";
-  const std::string distance = describeDistance(*row);
-  if (brief)
-    return {row->verdict == Verdict::notMeasured ? absentText : distance, {}, verdict, true};
-  Names more = {describeSurrogate(*row), describeNeeds(*row)};
-  if (row->lost > 0)
-    more.push_back(counted(static_cast<std::size_t>(row->lost), "packing") + " failed");
-  more.push_back(row->reason);
-  std::string detail =
-      row->kind == PairKind::closedForm ? describeValue(*row) + ", " + distance : distance;
-  return {std::move(word),
-          {std::move(detail), fmt::format("{}", fmt::join(nonEmpty(std::move(more)), "; "))},
-          verdict,
-          true};
-}
-
-std::string endpointLabel(const std::string& name, bool ofCell) {
-  const std::string symbol = endpointSymbol(name, ofCell);
-  return symbol == spaced(name) ? symbol : endpointWords(name) + " " + symbol;
-}
-
-std::string marginInWords(const Endpoints& endpoints, const std::string& name) {
-  const auto row = std::ranges::find(endpoints, name, &EndpointRow::endpoint);
-  const std::string unit = row->unit == "-" ? "" : " " + row->unit;
-  const std::string size = row->marginRelative
-                               ? fmt::format("± {:.3g} % of the reference", row->margin * 100.0)
-                               : "± " + readableSetting(row->margin) + unit;
-  return row->marginWhy.empty() ? size : size + ": " + row->marginWhy;
-}
-
-/// Every endpoint with its margin; an engine per column, against a.
-Table endpointVerdicts(const CompareResults& results, const std::string& a, const Names& engines) {
-  const Endpoints& endpoints = results.endpoints.rows;
-  Table table{{"endpoint and margin"}};
-  for (const std::string& engine : engines)
-    table.columns.emplace_back(engine, Column::Kind::engine);
-  for (const std::string& name : endpointsOf(endpoints)) {
-    TableRow row{{{endpointLabel(name, !results.region), {marginInWords(endpoints, name)}}}};
-    for (const std::string& engine : engines)
-      row.cells.push_back(answerCell(results, rowOf(endpoints, a, engine, name)));
-    table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
-/// Pairs of peers, or of mirrors, in the order of the results; an endpoint per column.
-Table endpointPairTable(const CompareResults& results, bool peers) {
-  Table table{{"pair"}};
-  if (!peers) table.columns.emplace_back("difference of");
-  const Names endpoints = endpointsOf(results.endpoints.rows);
-  for (const std::string& name : endpoints)
-    table.columns.emplace_back(endpointSymbol(name, !results.region));
-  std::vector<std::pair<std::string, std::string>> seen;
-  for (const EndpointRow& row : results.endpoints.rows) {
-    if ((row.kind == PairKind::peer) != peers || row.kind == PairKind::closedForm ||
-        row.a == medianName)
-      continue;
-    const std::pair pair(row.a, row.b);
-    if (std::ranges::find(seen, pair) != seen.end()) continue;
-    seen.push_back(pair);
-    TableRow line{{row.a + " – " + row.b}};
-    if (!peers)
-      line.cells.emplace_back(row.kind == PairKind::mirrorModel ? "model" : "implementation");
-    for (const std::string& name : endpoints)
-      line.cells.push_back(
-          answerCell(results, rowOf(results.endpoints.rows, row.a, row.b, name), true));
-    table.rows.push_back(std::move(line));
-  }
-  return table;
-}
-
-std::string ringInWords(const AgreementRing& ring, const char* bin) {
-  const std::string name = fmt::format("{} {}", bin, ring.ring + 1);
-  if (!finite(ring.difference)) return name + ": nothing to compare";
-  return fmt::format("{}: {}, margin {}", name,
-                     readableDifference(ring.difference, ring.standardError),
-                     readable(ring.margin));
-}
-
-/// Each field ring by ring, an engine per column.
-Table ringTable(const CompareResults& results, const std::string& reference, const Names& peers) {
-  const char* const bin = binWord(results);
-  Table table{{"field"}};
-  for (const std::string& peer : peers) table.columns.emplace_back(peer, Column::Kind::engine);
-  for (const std::string& field : fieldsOf(results.agreement)) {
-    TableRow row{{fieldLabel(field)}};
-    for (const std::string& peer : peers) {
-      Cell cell;
-      if (const AgreementRow* pair = rowOf(results.agreement, reference, peer, field))
-        for (const AgreementRing& ring : pair->rings)
-          cell.strip.push_back({ring.verdict, ringInWords(ring, bin)});
-      row.cells.push_back(std::move(cell));
-    }
-    table.rows.push_back(std::move(row));
-  }
-  table.note = fmt::format(
-      "Each square is a {0}, {1}: ✓ within the {0}'s margin, ✗ beyond it, ? undecided. {0}s show "
-      "where a difference is; they have no verdict of their own.",
-      bin, results.region ? "in the order of their numbers" : "from the wheel outwards");
-  return table;
-}
-
-List verdictReading(const CompareResults& results) {
-  const bool paired = std::ranges::none_of(
-      results.endpoints.rows, [](const EndpointRow& row) { return row.unpaired.has_value(); });
-  return {
-      {{"✓ agree",
-        fmt::format("the difference{} lies within the margin (two one-sided t tests, {:.3g} % "
-                    "confidence over all interim analyses together). No difference seen: its "
-                    "interval contains 0. Small difference: it does not.",
-                    paired ? ", paired over the same packings," : "",
-                    100.0 * results.averaging.confidence)},
-       {"✗ disagree", "it exceeds the margin (Holm's procedure over the endpoints of the pair)."},
-       {"≈ borderline",
-        "a difference is shown, and that it is below twice the margin; the margin lies in between. "
-        "More packings will hardly change that."},
-       {"? undecided",
-        "none of these is shown. The number of packings is what decides with 90 % chance, for the "
-        "ends of an 80 % interval of the scatter of all pairs."},
-       {"Interim analyses",
-        "packings are added until all is decided. A further analysis is no new chance of error: "
-        "agree is tested at one level in every analysis, so much lower that all together have the "
-        "chance that the confidence leaves (Pocock); disagree in each at its part of that chance, "
-        "and the parts add up to it. What was decided stays."}}};
-}
-
-void addClosedForms(Blocks& blocks, const CompareResults& results) {
-  const Names judged = closedFormEngines(results.endpoints.rows);
-  if (judged.empty()) return;
-  Table table = endpointVerdicts(results, closedFormName, judged);
-  table.note =
-      "The case gives the right value by a closed form. One start is run twice by every engine; a "
-      "value that comes back the same has no scatter: within the margin it agrees, else it "
-      "disagrees.";
-  blocks.push_back(Heading{"Closed forms"});
-  blocks.push_back(std::move(table));
-  blocks.push_back(Heading{"Between engines"});
-}
-
-void addSurrogates(Blocks& blocks, const CompareResults& results) {
-  if (results.endpoints.surrogates.empty()) return;
-  List engines;
-  for (const SurrogateEngine& own : results.endpoints.surrogates)
-    engines.items.push_back({"", describe(own)});
-  blocks.push_back(Heading{"Evaluated through mirrors"});
-  blocks.push_back(std::move(engines));
-  blocks.push_back(
-      Paragraph{"An engine that the lockstep comparison finds equivalent to its mirror needs no "
-                "packings of its own: the mirror runs them, and the engine one of them, compared "
-                "with the mirror's for faults that begin late. If averages respond to so small a "
-                "change in proportion, the engine's lie within B of the mirror's: ε_eq times what "
-                "10 % of the law's constants do to them. B is subtracted from the margin.",
-                Paragraph::Style::small});
-}
 
 const FitRow* fitOf(const EngineRuns& engine, const std::string& name) {
   return findBy(engine.fits(), name, &FitRow::name);
@@ -244,29 +84,65 @@ std::string instantOf(const CompareResults& results, const Engines& engines) {
   return "at one instant";
 }
 
+/// How pictures of scenes are to be read.
+std::string sceneWords(const CompareResults& results, const ScenePicture& picture, double fastest,
+                       const std::string& instant) {
+  std::string text = fmt::format(
+      "The first packing {}, coloured by {}.", instant,
+      fastest > 0.0
+          ? fmt::format("speed, from 0 (dark) to {} m/s and more (yellow)", readable(fastest))
+          : std::string("size"));
+  const double cut = picture.cut.value_or(0.0);
+  // A place that is less than a hundredth of a body from 0 is 0.
+  const std::string place = readable(std::abs(cut) < 0.01 * picture.radius.front() ? 0.0 : cut);
+  if (picture.depth)
+    text += fmt::format(
+        " Seen along y, x to the right and z upward: spheres in front of the plane y = {} m are "
+        "left out.",
+        place);
+  else if (picture.cut || (results.region && !results.region->z.empty()))
+    text += fmt::format(" A section along x and z{}.",
+                        picture.cut ? fmt::format(", at y = {} m", place) : "");
+  return text;
+}
+
+/// The scene of a few engines; folded: all others, where disks came from, and forces.
 void addPictures(Report& report, const CompareResults& results, const Engines& engines) {
-  Drawings origins = drawingsOf(report.pictures, Picture::Shows::origins);
+  constexpr std::size_t inSight = 4;
+  Drawings scenes, others;
+  const ScenePicture* first = nullptr;
+  for (const Picture& picture : report.pictures) {
+    if (picture.shows != Picture::Shows::scene) continue;
+    const EngineRuns& engine = *findBy(engines, picture.engine, &EngineRuns::name);
+    if (!first) first = firstPicture(engine);
+    const bool seen = engine.mirrors.empty() && scenes.names.size() < inSight;
+    (seen ? scenes : others).names.push_back(picture.name);
+  }
+  if (!first) return;
+  const std::string instant = instantOf(results, engines);
+  Blocks& blocks = report.section("pictures", "The scene", "Scene").blocks;
+  blocks = {Paragraph{sceneWords(results, *first, fastestOf(engines), instant)}, std::move(scenes)};
+  if (!others.names.empty()) blocks.push_back(Details{"Other engines", {std::move(others)}});
+  if (Drawings origins = drawingsOf(report.pictures, Picture::Shows::origins);
+      !origins.names.empty())
+    blocks.push_back(Details{
+        "Where disks came from",
+        {Paragraph{fmt::format("The same disks {}, coloured by where they started: twelve sectors "
+                               "of angle, paler in every other band of two diameters. A straight "
+                               "sector bends where the cell shears.",
+                               instant)},
+         std::move(origins)}});
   Drawings forces = drawingsOf(report.pictures, Picture::Shows::forces);
-  if (origins.names.empty()) return;
-  Blocks& blocks = report.section("pictures", "Pictures").blocks;
-  const bool convex = anyConvex(engines);
-  blocks = {Heading{convex ? "Where bodies came from" : "Where disks came from"},
-            Paragraph{fmt::format(
-                "Positions of the {} of the same packing {}, coloured by where they started: "
-                "twelve sectors of angle{}, paler in every other band of two diameters.{}",
-                convex ? "bodies" : "disks", instantOf(results, engines),
-                results.region ? " about the origin" : "",
-                results.region ? "" : " A straight sector bends where the cell shears.")},
-            std::move(origins)};
   if (forces.names.empty()) return;
-  const auto first = std::ranges::find(report.pictures, Picture::Shows::forces, &Picture::shows);
-  blocks.push_back(Heading{"Force chains"});
-  blocks.push_back(Paragraph{
-      fmt::format("The contact forces at the same instant: lines between the centres, width and "
-                  "darkness proportional to the normal force, all pictures on one scale: the "
-                  "widest line is the force that 99 % of {}'s contacts lie below.",
-                  first->engine)});
-  blocks.push_back(std::move(forces));
+  const auto of = std::ranges::find(report.pictures, Picture::Shows::forces, &Picture::shows);
+  blocks.push_back(Details{
+      "Force chains",
+      {Paragraph{fmt::format(
+           "Contact forces at the same instant: lines between the centres, width and darkness "
+           "proportional to the normal force, all pictures on one scale: the widest line is the "
+           "force that 99 % of {}'s contacts lie below.",
+           of->engine)},
+       std::move(forces)}});
 }
 
 std::string basisInWords(const CompareResults& results, const std::string& reference) {
@@ -321,62 +197,24 @@ Names compareNotes(const CompareResults& results, const Engines& engines) {
   return nonEmpty(std::move(notes));
 }
 
-/// Verdicts against the reference, of all pairs, and model against implementation.
-void addAgreement(Report& report, const CompareResults& results, const Engines& engines) {
-  const Endpoints& endpoints = results.endpoints.rows;
-  if (engines.empty()) return;
-  const std::string& reference = referenceOf(results);
-  const std::string called = referenceWords(results);
-  const Names peers = peersOf(results, engines);
-  const double falseAlarm = 100.0 * (1.0 - results.averaging.confidence);
-  Blocks& blocks = report.section("agreement", "Agreement with " + called, "Agreement").blocks;
-  if (!endpoints.empty()) {
-    addClosedForms(blocks, results);
-    if (results.endpoints.looks.taken > 0)
-      blocks.push_back(Paragraph{describe(results.endpoints.looks)});
-    Table table = endpointVerdicts(results, reference, peers);
-    table.note = fmt::format(
-        "A distance is the engine's value minus that of {}, in margins, with the interval that the "
-        "verdict rests on. Agree is tested endpoint by endpoint, disagree over all endpoints of a "
-        "pair: the chance of any false one is at most {:.3g} % for each pair.",
-        called, falseAlarm);
-    blocks.push_back(std::move(table));
-    addSurrogates(blocks, results);
-    blocks.push_back(Details{"How to read a verdict", {verdictReading(results)}});
-  }
-  if (Table pairs = endpointPairTable(results, true);
-      pairs.rows.size() > peers.size() || reference == medianName)
-    blocks.push_back(Details{"All pairs", {std::move(pairs)}});
-  if (Table mirrors = endpointPairTable(results, false); !mirrors.rows.empty()) {
-    blocks.push_back(Heading{"Model difference or implementation error?"});
-    blocks.push_back(
-        Paragraph{"A mirror is the in-house engine set to a peer's documented conventions. Against "
-                  "the reference it shows the difference of models; against its peer that of the "
-                  "implementation."});
-    blocks.push_back(std::move(mirrors));
-  }
-  if (Table rings = ringTable(results, reference, peers); !rings.rows.empty()) {
-    blocks.push_back(Heading{fmt::format("Where: {0} by {0}", binWord(results))});
-    blocks.push_back(std::move(rings));
-  }
-  if (blocks.empty()) report.sections.pop_back();
-}
-
 }  // namespace
 
 void addProfiles(Report& report, const CompareResults& results, const Engines& engines) {
-  Engines withData;
-  for (const EngineRuns& engine : engines)
-    if (!engine.finished.empty()) withData.push_back(engine);
+  const Engines withData = only(engines, [](const EngineRuns& engine) {
+    return !engine.finished.empty() && !engine.isSingle;
+  });
   const std::string bars = describeBars(engines);
   const auto drawings = [&](const char* prefix) { return drawingsOf(report.figures, prefix); };
   Blocks& profiles = report.section("profiles", "Profiles").blocks;
-  profiles = {Paragraph{describeAverages(results, engines) + " " + bars}, drawings("profile_")};
-  if (Drawings differences = drawings("difference_"); !differences.names.empty()) {
-    profiles.push_back(
-        Heading{"Differences from " + referenceWords(results) + ", in margins", "differences"});
-    profiles.push_back(std::move(differences));
-  }
+  Drawings all = drawings("profile_");
+  profiles = {Paragraph{describeAverages(results, engines) + (all.names.empty() ? "" : " " + bars)},
+              drawings("overview")};
+  if (!all.names.empty()) profiles.push_back(Details{"All profiles", {std::move(all)}});
+  if (Drawings differences = drawings("difference_"); !differences.names.empty())
+    profiles.push_back(Details{"Differences from " + referenceWords(results) + ", in margins",
+                               {std::move(differences)}});
+  if (Drawings single = drawings("single_runs"); !single.names.empty())
+    report.section("single-runs", "Single runs").blocks = {std::move(single)};
   Table fits = fitTable(withData);
   Blocks& ofFits = report.section("fits", "Fits").blocks;
   ofFits.push_back(fits.rows.empty() ? Block(Paragraph{"None."}) : Block(std::move(fits)));
@@ -417,6 +255,10 @@ Report compareReport(const CompareResults& results) {
   report.notes = compareNotes(results, engines);
   report.figures = compareFigures(results);
   report.pictures = comparePictures(results);
+  addAgreement(report, results, engines);
+  addPictures(report, results, engines);
+  addProfiles(report, results, engines);
+  addCauses(report, results);
   if (results.lockstep) {
     Blocks& blocks =
         report
@@ -428,13 +270,11 @@ Report compareReport(const CompareResults& results) {
   }
   addEngineTable(report.section("engines", "Engines and their cost", "Engines and cost").blocks,
                  engines);
-  addAgreement(report, results, engines);
-  addCauses(report, results);
-  addProfiles(report, results, engines);
   addSeries(report, results, engines);
-  addPictures(report, results, engines);
   addDetails(report, effectiveOf(results, engines));
   if (!results.packings.empty()) addPackings(report, results.packings);
+  for (Section& section : report.sections)
+    section.folded = !contains({"agreement", "pictures", "profiles"}, section.id);
   report.tables = averageTables(results);
   report.tables.emplace_back("endpoints.csv", endpointsCsv(results));
   report.tables.emplace_back("agreement.csv", agreementCsv(results));

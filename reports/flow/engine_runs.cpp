@@ -19,16 +19,6 @@ const T& meansOf(const EngineRuns& engine, T CouetteEnsemble::*ofEnsemble, T Flo
   return engine.finished.empty() ? none : engine.finished.front()->*ofRun;
 }
 
-/// Two thirds of the way to white.
-std::string paled(const std::string& colour) {
-  std::string pale = "#";
-  for (const std::size_t at : {1u, 3u, 5u}) {
-    const int part = std::stoi(colour.substr(at, 2), nullptr, 16);
-    pale += fmt::format("{:02x}", part + (255 - part) * 2 / 3);
-  }
-  return pale;
-}
-
 void addTo(std::optional<double>& sum, std::optional<double> value) {
   if (value) sum = sum.value_or(0.0) + *value;
 }
@@ -101,6 +91,8 @@ Engines engineRuns(const CompareResults& results) {
     engine.isSingle = means && !engine.ensemble && !engine.finished.empty();
     if (const auto* own = surrogateOf(results.endpoints.surrogates, engine.name))
       engine.surrogate = own->mirror;
+    if (const auto* own = surrogateBy(results.endpoints.surrogates, engine.name))
+      engine.standsFor = own->engine;
   }
   return engines;
 }
@@ -113,13 +105,10 @@ bool anyConvex(const Engines& engines) {
 }
 
 Curve curveOf(const EngineRuns& engine, std::vector<Point> points, double width) {
-  Curve curve{engine.name, engine.style, Draw::linesAndPoints, std::move(points), width};
-  if (!engine.isSingle) return curve;
-  curve.name += ", one run";
-  curve.style.colour = paled(curve.style.colour);
-  curve.draw = Draw::lines;
-  for (Point& point : curve.points) point.error.reset();
-  return curve;
+  const std::string name = engine.standsFor.empty()
+                               ? engine.name
+                               : fmt::format("{} for {}", engine.name, engine.standsFor);
+  return {name, engine.style, Draw::linesAndPoints, std::move(points), width};
 }
 
 std::optional<double> EngineCost::cpuPerSecond() const {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,8 +17,12 @@ struct EngineRuns : EngineRow {
   LineStyle style;                             ///< a mirror has its peer's, dashed and open
   std::vector<const FlowRun*> runs, finished;  ///< in the order of the results
   const CouetteEnsemble* ensemble = nullptr;   ///< null with fewer than two finished runs
-  bool isSingle = false;       ///< one finished run beside means of others: it is drawn pale
+  bool isSingle = false;       ///< one finished run beside means of others: no result of its engine
   std::string surrogate = {};  ///< the mirror whose runs its verdicts rest on; empty: its own runs
+  std::string standsFor = {};  ///< of such a mirror: the engine
+
+  /// Whether verdicts on an engine rest on its runs.
+  bool isResult() const { return !isSingle && (mirrors.empty() || !standsFor.empty()); }
 
   /// Of the ensemble, else of the only finished run; empty without one.
   const std::vector<Profile>& profiles() const;
@@ -38,13 +44,20 @@ using Engines = std::vector<EngineRuns>;
 
 /// In the results' order: the reference first. Runs with an effect switched off are left out.
 Engines engineRuns(const FlowStudy& study, const std::vector<CouetteEnsemble>& ensembles);
-/// The same with `isSingle` and `surrogate`.
+/// The same with `isSingle`, `surrogate` and `standsFor`.
 Engines engineRuns(const CompareResults& results);
 
 /// Whether one of them drew convex bodies.
 bool anyConvex(const Engines& engines);
 
-/// Curve of an engine in its style; pale and without bars for a single run beside means.
+/// Those that isIt.
+Engines only(const Engines& engines, const auto& isIt) {
+  Engines some;
+  std::ranges::copy_if(engines, std::back_inserter(some), isIt);
+  return some;
+}
+
+/// Curve of an engine in its style; a mirror that stands for an engine is named so.
 Curve curveOf(const EngineRuns& engine, std::vector<Point> points = {}, double width = 1.5);
 
 /// Sums over an engine's finished runs, of stepping alone.

@@ -321,8 +321,9 @@ TableRow headRow(const std::string& name, const Engines& engines) {
   return tableRow(anyConvex(engines) ? ofBodies(label) : label, unit, engines,
                   [&name](const EngineRuns& engine) {
                     const HeadNumber* number = headOf(engine, name);
-                    return number ? readable(number->value, number->standardError)
-                                  : std::string(absentText);
+                    if (!number) return std::string(absentText);
+                    return readable(number->value, number->standardError) +
+                           (engine.isSingle ? " (one run)" : "");
                   });
 }
 

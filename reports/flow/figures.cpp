@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "reports/flow/endpoint_text.hpp"
 
@@ -103,7 +104,7 @@ void addPoints(const FlowFrame& frame, const EngineRuns& engine, const ProfilePl
     if (x && plot.logX && inner > 0.0) *x /= inner;
     if (!x || !mean) continue;
     Point point{*x, *mean * factor, {}};
-    if (error && !engine.isSingle) point.error = *error * std::abs(factor);
+    if (error) point.error = *error * std::abs(factor);
     curve.points.push_back(point);
   }
 }
@@ -176,6 +177,7 @@ Figure overview(const FlowFrame& frame, const Engines& engines, const IsFaint& f
   figure.panelWidth = 480;
   figure.panelHeight = 330;
   figure.png = true;
+  figure.keyAbove = true;
   Names shown =
       rings ? Names{"azimuthal_velocity", "azimuthal_velocity_log", "stress_rp", "volume_fraction"}
             : Names{"velocity_x", "stress_xy", "stress_yy", "volume_fraction"};
@@ -189,9 +191,40 @@ Figure overview(const FlowFrame& frame, const Engines& engines, const IsFaint& f
     const auto plot = std::ranges::find(plots, name, &ProfilePlot::name);
     Panel panel = profilePanel(frame, engines, *plot, faint);
     if (!hasPoints(panel)) continue;
-    panel.key = !figure.panels.empty() ? Key::none : rings ? Key::topRight : Key::topLeft;
+    panel.key = Key::none;
     figure.panels.push_back(std::move(panel));
   }
+  return figure;
+}
+
+/// Single runs beside means of others, each with its surrogate's run of the same packing.
+Figure singleRunsFigure(const FlowFrame& frame, const Engines& engines) {
+  Engines alone;
+  Names said;
+  for (const EngineRuns& engine : engines) {
+    if (!engine.isSingle) continue;
+    const int packing = engine.finished.front()->packing;
+    alone.push_back(engine);
+    std::string words = fmt::format("{} on packing {}", engine.name, packing);
+    if (const auto* const mirror = findBy(engines, engine.surrogate, &EngineRuns::name))
+      if (const auto* const run = findBy(mirror->finished, packing, &FlowRun::packing)) {
+        alone.push_back(*mirror);
+        alone.back().finished = {*run};
+        alone.back().ensemble = nullptr;
+        alone.back().standsFor.clear();
+        words += fmt::format(" beside {} on the same", mirror->name);
+      }
+    said.push_back(std::move(words));
+  }
+  if (alone.empty()) return {};
+  Figure figure = overview(frame, alone, {});
+  figure.name = "single_runs";
+  figure.title = "Single runs: " + figure.title;
+  figure.caption = fmt::format(
+      "Single runs, which say nothing of other packings: {}. Bars: ± one standard error within the "
+      "run.",
+      listed(said));
+  figure.png = false;
   return figure;
 }
 
@@ -287,35 +320,45 @@ std::optional<Range> rTildeRange(const FlowFrame& frame) {
 }
 
 std::string describeBars(const Engines& engines) {
-  Names single;
-  for (const EngineRuns& engine : engines)
-    if (engine.isSingle)
-      single.push_back(engine.surrogate.empty() ? engine.name
-                                                : fmt::format("{} (its verdicts rest on {})",
-                                                              engine.name, engine.surrogate));
   const bool ensemble =
       std::ranges::any_of(engines, [](const EngineRuns& engine) { return engine.ensemble; });
   if (!ensemble)
     return "Bars: ± one standard error within the run: conditional on its one packing, it says "
            "nothing about other packings.";
-  const std::string over = "Bars: ± one standard error of the mean over packings";
-  return over +
-         (single.empty() ? "." : fmt::format("; pale, without: one run of {}.", listed(single)));
+  Names single, mirrors;
+  for (const EngineRuns& engine : engines) {
+    if (!engine.isSingle) continue;
+    single.push_back(engine.name);
+    if (!engine.surrogate.empty())
+      mirrors.push_back(fmt::format("{} of {}", engine.surrogate, engine.name));
+  }
+  std::string text = "Bars: ± one standard error of the mean over packings.";
+  if (!mirrors.empty())
+    text += fmt::format(" Mirrors stand for engines that are evaluated through them: {}.",
+                        listed(mirrors));
+  if (!single.empty())
+    text += fmt::format(" Single runs of {} are not drawn here; they have a part of their own.",
+                        listed(single));
+  return text;
 }
 
 std::vector<Figure> profileFigures(const FlowFrame& frame, const Engines& engines,
                                    const IsFaint& faint) {
   std::vector<Figure> figures;
-  if (Figure all = overview(frame, engines, faint); !all.panels.empty())
+  if (Figure all = overview(frame, only(engines, std::mem_fn(&EngineRuns::isResult)), faint);
+      !all.panels.empty())
     figures.push_back(std::move(all));
+  const Engines means = only(engines, std::not_fn(std::mem_fn(&EngineRuns::isSingle)));
   for (const ProfilePlot& plot : plotsOf(frame)) {
-    Panel panel = profilePanel(frame, engines, plot, faint);
+    Panel panel = profilePanel(frame, means, plot, faint);
     if (!hasPoints(panel)) continue;
     figures.push_back({"profile_" + plot.name(),
                        "Profile of the " + plot.title(),
                        captionOf(frame, plot, panel),
                        {panel}});
   }
+  if (Figure single = singleRunsFigure(frame, engines); !single.panels.empty())
+    figures.push_back(std::move(single));
   return figures;
 }
 

@@ -35,10 +35,24 @@ Names endpointsWith(const std::vector<const EndpointRow*>& rows, Verdict verdict
   return names;
 }
 
-/// "disagreed on pressure, agreed on 6 of 9 endpoints and left 2 undecided"; of one pair.
+/// "pressure (643 instead of 206 N/m²)": those that disagree, with their values.
+Names disagreements(const std::vector<const EndpointRow*>& rows) {
+  Names names;
+  for (const EndpointRow* row : rows) {
+    if (row->verdict != Verdict::fail) continue;
+    names.push_back(endpointWords(row->endpoint));
+    if (!finite(row->value())) continue;
+    const auto [value, reference] = readablePair(row->value(), row->reference);
+    names.back() += fmt::format(" ({} instead of {}{})", value, reference,
+                                row->unit == "-" ? "" : " " + row->unit);
+  }
+  return names;
+}
+
+/// "disagreed on pressure (643 instead of 206 N/m²), agreed on 6 of 9 endpoints and left 2
+/// undecided"; of one pair.
 std::string relationOf(const std::vector<const EndpointRow*>& rows) {
-  const Names disagree = endpointsWith(rows, Verdict::fail),
-              borderline = endpointsWith(rows, Verdict::borderline),
+  const Names disagree = disagreements(rows), borderline = endpointsWith(rows, Verdict::borderline),
               undecided = endpointsWith(rows, Verdict::undecided),
               absent = endpointsWith(rows, Verdict::notMeasured);
   const std::size_t agree =

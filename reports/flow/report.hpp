@@ -23,15 +23,26 @@ Report reportOf(const RevResults& results);
 
 /// Every plot of a comparison that there are data for. Names of figures: overview; profile_FIELD
 /// (profile_azimuthal_velocity_log for its log axis); check_1, check_2, …; series_NAME;
-/// distribution_velocities, distribution_joint, distribution_directions, distribution_contacts.
+/// single_runs; distribution_velocities, distribution_joint, distribution_directions,
+/// distribution_contacts.
 std::vector<Figure> compareFigures(const CompareResults& results);
 
-/// Two per engine, of its first run that has a picture: where disks started (originsDrawing) and
-/// forces. All are on one scale, of lengths and, of the first engine that has any, of forces
-/// (widestForce).
+/// Of each engine's first run that has a picture: the scene by speed, of cells where disks started
+/// (originsDrawing), and forces. All are on one scale, of lengths unless an engine's are more than
+/// twice the first's, of speeds, and of the first engine that has any, of forces (widestForce).
 std::vector<Picture> comparePictures(const CompareResults& results);
 
-/// Profiles, fits, balance checks and distributions.
+/// Verdicts on endpoints: against the closed forms, where the case has them, else against the
+/// reference; folded: all pairs, model against implementation, ring by ring.
+void addAgreement(Report& report, const CompareResults& results, const Engines& engines);
+
+/// The picture of an engine's first run that has one, or null.
+const ScenePicture* firstPicture(const EngineRuns& engine);
+/// The speed at which pictures are brightest: the largest of what 98 % of an engine's disks are
+/// below [m/s].
+double fastestOf(const Engines& engines);
+
+/// Profiles, single runs, fits, balance checks and distributions.
 void addProfiles(Report& report, const CompareResults& results, const Engines& engines);
 /// Regimes, drifts and series.
 void addSeries(Report& report, const CompareResults& results, const Engines& engines);

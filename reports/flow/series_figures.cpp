@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numbers>
 #include <numeric>
@@ -79,9 +81,13 @@ Panel seriesPanel(const FlowFrame& frame, const Engines& engines, const SeriesPl
     }
   }
   chooseLogY(panel);
-  double last = 0.0;
-  for (const Curve& curve : panel.curves) last = std::max(last, curve.points.back().x);
-  if (last > 0.0) panel.xRange = Range{0.0, last};
+  double first = INFINITY, last = 0.0;
+  for (const Curve& curve : panel.curves) {
+    first = std::min(first, curve.points.front().x);
+    last = std::max(last, curve.points.back().x);
+  }
+  // From 0 only where settling is shown: the axis has no empty part.
+  if (last > 0.0) panel.xRange = Range{panel.shaded || first == last ? 0.0 : first, last};
   return panel;
 }
 
@@ -304,10 +310,21 @@ std::vector<Panel> directionPanels(const RingPlaces& rings, const Engines& engin
   return panels;
 }
 
-const ScenePicture* firstPicture(const EngineRuns& engine) {
-  for (const FlowRun* run : engine.runs)
-    if (run->picture) return &*run->picture;
-  return nullptr;
+/// "Flowing, I = 0.0041, k_n/p = 4200, largest overlap 0.003 d.": what is known of the state.
+std::string stateWords(const EngineRuns& engine) {
+  Names words;
+  if (const auto* const run = findIf(
+          engine.finished, [](const FlowRun* one) { return one->regime && one->regime->regime; }))
+    words.emplace_back(toString(*(*run)->regime->regime));
+  if (engine.isSingle) words.emplace_back("one run");
+  for (const auto& [name, form] :
+       {std::pair("inertial_number", "I = {}"), std::pair("kn_over_p", "k_n/p = {}"),
+        std::pair("max_overlap_over_d", "largest overlap {} d")})
+    if (const auto* const number = findBy(engine.head(), std::string(name), &HeadNumber::name);
+        number && finite(number->value))
+      words.push_back(fmt::format(fmt::runtime(form), readable(number->value)));
+  return words.empty() ? ""
+                       : fmt::format("{}.", capitalised(fmt::format("{}", fmt::join(words, ", "))));
 }
 
 /// Letters, digits and dashes only: names of engines become names of files.
@@ -328,7 +345,7 @@ std::string forceWords(const ForceCount& count, double widest) {
 std::vector<Figure> distributionFigures(const FlowFrame& frame, const Engines& engines) {
   std::vector<Panel> joint;
   for (const EngineRuns& engine : engines)
-    if (engine.mirrors.empty()) joint.push_back(jointPanel(engine));
+    if (engine.isResult()) joint.push_back(jointPanel(engine));
   std::vector<Figure> figures = {
       figureOf("velocities", "Distributions of velocities and spin at the wheel",
                "Radial and azimuthal velocity and spin of single disks in ring 1, next to the "
@@ -358,11 +375,27 @@ std::vector<Figure> distributionFigures(const FlowFrame& frame, const Engines& e
 
 }  // namespace
 
+const ScenePicture* firstPicture(const EngineRuns& engine) {
+  for (const FlowRun* run : engine.runs)
+    if (run->picture) return &*run->picture;
+  return nullptr;
+}
+
+double fastestOf(const Engines& engines) {
+  double fastest = 0.0;
+  for (const EngineRuns& engine : engines)
+    if (const ScenePicture* picture = firstPicture(engine))
+      fastest = std::max(fastest, fastestOf(*picture));
+  return fastest;
+}
+
 std::vector<Figure> compareFigures(const CompareResults& results) {
   const Engines engines = engineRuns(results);
   std::vector<Figure> figures = profileFigures(results, engines);
   for (auto more : {differenceFigures(results, engines), checkFigures(results, engines),
-                    seriesFigures(results, engines), distributionFigures(results, engines),
+                    seriesFigures(results, engines),
+                    distributionFigures(
+                        results, only(engines, std::not_fn(std::mem_fn(&EngineRuns::isSingle)))),
                     profileCausesFigures(results)})
     std::ranges::move(more, std::back_inserter(figures));
   if (anyConvex(engines))
@@ -374,25 +407,25 @@ std::vector<Figure> compareFigures(const CompareResults& results) {
 }
 
 std::vector<Picture> comparePictures(const CompareResults& results) {
-  std::vector<Picture> origins, forces;
+  std::vector<Picture> scenes, origins, forces;
+  const Engines engines = engineRuns(results);
+  const double fastest = fastestOf(engines);
   std::optional<double> widest;  // of the first that has forces, for all
-  double halfWidth = 0.0;
-  for (const EngineRuns& engine : engineRuns(results)) {
+  for (const EngineRuns& engine : engines) {
     const ScenePicture* picture = firstPicture(engine);
     if (!picture || picture->x.empty()) continue;
-    const std::string word = fmt::format("{}_{}", origins.size() + 1, fileWord(engine.name));
-    const bool inSpace = results.region && !results.region->z.empty();
+    const std::string word = fmt::format("{}_{}", scenes.size() + 1, fileWord(engine.name));
     const auto titled = [&](const std::string& words) {
       return engine.name + (picture->outlines ? ofBodies(words) : words);
     };
-    origins.push_back(
-        {"origins_" + word, engine.name,
-         titled(inSpace ? ": spheres cut along x and z, coloured by where they started"
-                        : ": disks coloured by where they started"),
-         "", Picture::Shows::origins,
-         originsDrawing(*picture, results.cell.innerRadius,
-                        results.region ? results.region->diameter : results.cell.diameter)});
-    halfWidth = std::max(halfWidth, origins.back().drawing.halfWidth);
+    scenes.push_back({"scene_" + word, engine.name,
+                      titled(picture->depth ? ": spheres behind a cut" : ": disks"),
+                      stateWords(engine), Picture::Shows::scene, sceneDrawing(*picture, fastest)});
+    if (!results.region)
+      origins.push_back(
+          {"origins_" + word, engine.name, titled(": disks coloured by where they started"), "",
+           Picture::Shows::origins,
+           originsDrawing(*picture, results.cell.innerRadius, results.cell.diameter)});
     const auto own = widestForce(*picture);
     if (!own) continue;
     if (!widest) widest = own;
@@ -400,9 +433,17 @@ std::vector<Picture> comparePictures(const CompareResults& results) {
                       forceWords(countForces(*picture, *widest), *widest), Picture::Shows::forces,
                       forcesDrawing(*picture, *widest, 0.75)});
   }
-  std::ranges::move(forces, std::back_inserter(origins));
-  for (Picture& picture : origins) picture.drawing.halfWidth = halfWidth;
-  return origins;
+  for (auto* more : {&origins, &forces}) std::ranges::move(*more, std::back_inserter(scenes));
+  Window all;
+  const auto isAlike = [&](const Picture& picture) {
+    return picture.drawing.window.larger() <= 2.0 * scenes.front().drawing.window.larger();
+  };
+  std::vector<Picture*> alike;
+  for (Picture& picture : scenes)
+    if (isAlike(picture)) alike.push_back(&picture);
+  for (const Picture* picture : alike) all.add(picture->drawing.window);
+  for (Picture* picture : alike) picture->drawing.window = all;
+  return scenes;
 }
 
 }  // namespace crossgrain::reports

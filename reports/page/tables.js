@@ -1,5 +1,5 @@
-// Tables that sort by a column, filter by words and copy as CSV, and commands that copy. Without
-// this the pages lack nothing else.
+// Tables that sort by a column, filter by words and copy as CSV, commands that copy, and folds that
+// open for a link into them and for paper. Without this the pages lack nothing else.
 'use strict';
 (() => {
   function button(text, title, act) {
@@ -110,6 +110,25 @@
     }
     (table.closest('.scroll') || table).after(tools);
   }
+
+  function openTo(id) {
+    const target = id && document.getElementById(decodeURIComponent(id));
+    if (!target) return;
+    for (let at = target; at; at = at.parentElement) if (at.tagName === 'DETAILS') at.open = true;
+    target.scrollIntoView();
+  }
+  addEventListener('hashchange', () => openTo(location.hash.slice(1)));
+  addEventListener('click', (event) => {  // also of the link that was followed last
+    const link = event.target.closest && event.target.closest('a[href^="#"]');
+    if (link) openTo(link.hash.slice(1));
+  });
+  openTo(location.hash.slice(1));
+  let folded = [];
+  addEventListener('beforeprint', () => {
+    folded = [...document.querySelectorAll('details:not([open])')];
+    for (const details of folded) details.open = true;
+  });
+  addEventListener('afterprint', () => { for (const details of folded) details.open = false; });
 
   for (const table of document.querySelectorAll('table:not(.overview)')) addTools(table);
   for (const block of document.querySelectorAll('pre')) {

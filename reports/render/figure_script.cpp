@@ -241,7 +241,8 @@ std::string panelScript(const std::string& data, std::size_t firstBlock, const P
       "  set title {}\n  set xlabel {}\n  set ylabel {}\n  {}\n  {} logscale x\n  {} logscale y\n  "
       "{}\n  {}\n  set xrange {}\n  set yrange {}\n",
       panel.name.empty() ? quoted(panel.title) : quoted(panel.name) + " noenhanced",
-      quoted(panel.xLabel), quoted(panel.yLabel), keyText(panel.key), panel.logX ? "set" : "unset",
+      quoted(panel.xLabel), quoted(panel.yLabel),
+      keyText(keyIsTooLong(panel) ? Key::none : panel.key), panel.logX ? "set" : "unset",
       panel.logY ? "set" : "unset", ticks('x', panel.xTicks, panel.logX),
       ticks('y', panel.logY ? shortLogTicks(range) : std::vector<double>(), panel.logY),
       rangeText(panel.xRange), yRangeText(panel));
@@ -332,6 +333,14 @@ std::string terminals(const Figure& figure, std::size_t rows) {
 
 int widthOf(const Figure& figure) {
   return figure.rowNames + figure.panelWidth * figure.columns;
+}
+
+bool keyIsTooLong(const Panel& panel) {
+  const auto named = [&](const Curve& curve) {
+    return !curve.name.empty() && isSeen(panel, curve);
+  };
+  return panel.key != Key::none &&
+         static_cast<std::size_t>(std::ranges::count_if(panel.curves, named)) > mostKeyNames;
 }
 
 std::optional<Range> yRange(const Panel& panel) {

@@ -21,11 +21,12 @@ std::string htmlDrawing(const Report& report, const std::string& name,
   const auto svg = readFile(drawings.folder / (name + ".svg"));
   if (!svg) return {};
   std::string title, caption, width;
-  bool wide = false;
+  bool wide = false, onPaper = true;
   if (const auto figure = std::ranges::find(report.figures, name, &Figure::name);
       figure != report.figures.end()) {
     title = figure->title;
     caption = figure->caption;
+    if (std::ranges::any_of(figure->panels, keyIsTooLong)) caption += " Colours: the legend above.";
     // As wide as its letters need to stay readable, and no wider than they look well.
     constexpr double smallest = 12.0, readableOnes = 11.0;  // letters of gnuplot.cpp [px]
     constexpr double column = 640.0;                        // of a figure beside another [px]
@@ -37,12 +38,13 @@ std::string htmlDrawing(const Report& report, const std::string& name,
              picture != report.pictures.end()) {
     title = picture->title;
     caption = picture->engine + ". " + picture->scale;
+    onPaper = picture->shows == Picture::Shows::forces || picture->shows == Picture::Shows::worst;
   }
   const std::string file = fmt::format("plots/{}.svg", escaped(name));
   return fmt::format(
-      "<figure{}>\n<div class=\"plot\"><img alt=\"{}\" {}{}></div>\n<figcaption>{} <span "
+      "<figure{}>\n<div class=\"plot\"><img{} alt=\"{}\" {}{}></div>\n<figcaption>{} <span "
       "class=\"file\">{}{}</span></figcaption>\n</figure>\n",
-      wide ? " class=\"wide\"" : "", escaped(title),
+      wide ? " class=\"wide\"" : "", onPaper ? " class=\"onpaper\"" : "", escaped(title),
       drawings.ofSite ? fmt::format("loading=\"lazy\" src=\"{}\"", file)
                       : fmt::format("src=\"data:image/svg+xml;base64,{}\"", base64(*svg)),
       width, mathHtml(caption), file, drawings.ofSite ? "" : ", .pdf");
@@ -85,6 +87,51 @@ class EngineNames {
 std::string linked(const std::string& address, const std::string& content) {
   if (address.empty()) return content;
   return fmt::format(R"(<a href="{}">{}</a>)", escaped(address), content);
+}
+
+// --- bars on an axis of margins
+
+constexpr double barWidth = 180.0, barHeight = 18.0;  // [px]
+
+/// Place on an axis that ends at ±reach, from the left [px].
+double onAxis(double margins, double reach) {
+  return 0.5 * barWidth * (1.0 + std::clamp(margins / reach, -1.0, 1.0) * 0.92);
+}
+
+/// Band, zero and interval; what lies beyond the axis is an arrow at its end.
+std::string htmlBar(const MarginBar& bar, double reach, std::string_view verdict) {
+  const auto x = [&](double margins) { return onAxis(margins, reach); };
+  constexpr double middle = 0.5 * barHeight;
+  std::string text = fmt::format(
+      "<svg class=\"bar {0}\" viewBox=\"0 0 {1} {2}\" width=\"{1}\" height=\"{2}\" role=\"img\" "
+      "aria-label=\"{3}\">"
+      "<title>{3}</title><rect class=\"band\" x=\"{4:.1f}\" width=\"{5:.1f}\" height=\"{2}\"/>"
+      "<path class=\"zero\" d=\"M{6:.1f} 0v{2}\"/>",
+      verdict, barWidth, barHeight, escaped(bar.title), x(-1.0), x(1.0) - x(-1.0), x(0.0));
+  const double low = bar.low.value_or(bar.middle), high = bar.high.value_or(bar.middle);
+  text +=
+      fmt::format("<path class=\"interval\" d=\"M{:.1f} {}H{:.1f}\"/>", x(low), middle, x(high));
+  for (const double sign : {-1.0, 1.0})
+    if (sign * (sign > 0.0 ? high : low) > reach)
+      text += fmt::format("<path d=\"M{:.1f} {}l{} -5v10z\"/>", x(sign * reach) + sign * 3.0,
+                          middle, -sign * 8.0);
+  if (std::abs(bar.middle) <= reach)
+    text += fmt::format("<circle cx=\"{:.1f}\" cy=\"{}\" r=\"4\"/>", x(bar.middle), middle);
+  return text + "</svg>";
+}
+
+/// The axis' numbers above them.
+std::string htmlAxis(const std::string& name, double reach) {
+  std::string text = mathHtml(name) +
+                     fmt::format(
+                         "<svg class=\"bar\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" height=\"{1}\" "
+                         "aria-hidden=\"true\">",
+                         barWidth, barHeight);
+  const int step = reach > 4.0 ? 2 : 1;
+  for (int at = -step * static_cast<int>(reach / step); at <= reach; at += step)
+    text += fmt::format("<text x=\"{:.1f}\" y=\"13\">{}{}</text>", onAxis(at, reach),
+                        at < 0 ? "−" : "", std::abs(at));
+  return text + "</svg>";
 }
 
 // --- the matrix
@@ -159,8 +206,11 @@ class Writer {
   }
 
   void section(const Section& section) {
+    if (section.folded) out_ += "<details class=\"section\"><summary>\n";
     heading(2, section.id, section.title);
+    if (section.folded) out_ += "</summary>\n";
     blocks(section.blocks);
+    if (section.folded) out_ += "</details>\n";
   }
   void blocks(const Blocks& all) {
     for (const Block& block : all)
@@ -210,42 +260,58 @@ class Writer {
     if (drawings_.missing) return;
     std::string figures;
     for (const std::string& name : part.names) figures += htmlDrawing(report_, name, drawings_);
+    const bool pictures =
+        !part.names.empty() && findBy(report_.pictures, part.names.front(), &Picture::name);
     if (!figures.empty())
-      out_ += part.side ? "<div class=\"figures\">\n" + figures + "</div>\n" : figures;
+      out_ += part.side ? fmt::format("<div class=\"figures{}\">\n{}</div>\n",
+                                      pictures ? " pictures" : "", figures)
+                        : figures;
   }
 
   void write(const Table& table) {
     if (table.rows.empty()) return;
     out_ += fmt::format("<div class=\"scroll\"><table{}>\n<thead><tr>",
-                        table.dense ? " class=\"scores\"" : "");
+                        table.dense         ? " class=\"scores\""
+                        : table.reach > 0.0 ? " class=\"forest\""
+                                            : "");
     for (const Column& column : table.columns) {
       const bool engine = column.kind == Column::Kind::engine;
-      out_ += fmt::format("<th{}>{}</th>",
-                          engine                                ? " class=\"engine\""
-                          : column.kind == Column::Kind::number ? " class=\"n\""
-                                                                : "",
-                          engine ? names_(column.name) : mathHtml(column.name));
+      out_ +=
+          fmt::format("<th{}>{}</th>",
+                      engine                                ? " class=\"engine\""
+                      : column.kind == Column::Kind::number ? " class=\"n\""
+                                                            : "",
+                      engine                                 ? names_(column.name)
+                      : column.kind == Column::Kind::margins ? htmlAxis(column.name, table.reach)
+                                                             : mathHtml(column.name));
     }
     out_ += "</tr></thead>\n<tbody>\n";
     for (const TableRow& row : table.rows) {
       if (!row.group.empty())
         out_ += fmt::format("<tr class=\"group\"><th colspan=\"{}\">{}</th></tr>\n",
-                            table.columns.size(), mathHtml(row.group));
+                            table.columns.size(), names_(row.group));
       out_ += row.id.empty() ? "<tr>" : fmt::format("<tr id=\"{}\">", escaped(row.id));
-      for (std::size_t k = 0; k < row.cells.size(); ++k)
-        cell(row.cells[k], k == 0,
-             k < table.columns.size() ? table.columns[k].kind : Column::Kind::words);
+      for (std::size_t k = 0; k < row.cells.size(); ++k) cell(row.cells[k], k, table);
       out_ += "</tr>\n";
     }
     out_ += "</tbody></table></div>\n";
     write(Paragraph{table.note, Paragraph::Style::small});
   }
 
-  void cell(const Cell& cell, bool first, Column::Kind kind) {
+  void cell(const Cell& cell, std::size_t place, const Table& table) {
     using enum Column::Kind;
+    const Column column = place < table.columns.size() ? table.columns[place] : Column("");
+    const Column::Kind kind = column.kind;
+    const std::string asks = table.reach > 0.0 && place > 0
+                                 ? fmt::format(" data-asks=\"{}\"", escaped(column.name))
+                                 : std::string();
     std::string classes = kind == number ? "n" : kind == remark ? "why" : "";
-    const bool coloured = cell.verdict || cell.marked;
     const VerdictLook& look = lookOf(cell.verdict);
+    if (cell.bar) {
+      out_ += fmt::format("<td{}>{}</td>", asks, htmlBar(*cell.bar, table.reach, look.cssClass));
+      return;
+    }
+    const bool coloured = cell.verdict || cell.marked;
     if (coloured) classes += std::string(" change ") + std::string(look.cssClass);
     std::string text = kind == engines ? names_(cell.text) : mathHtml(cell.text);
     if (cell.marked) text = std::string(look.mark) + " " + text;
@@ -259,9 +325,9 @@ class Writer {
                             escaped(square.title), lookOf(square.verdict).mark);
       text += "</span>";
     }
-    const char* const tag = first ? "th" : "td";
-    out_ += classes.empty() ? fmt::format("<{0}>{1}</{0}>", tag, text)
-                            : fmt::format("<{0} class=\"{2}\">{1}</{0}>", tag, text, classes);
+    out_ +=
+        fmt::format("<{0}{1}{2}>{3}</{0}>", place == 0 ? "th" : "td",
+                    classes.empty() ? classes : fmt::format(" class=\"{}\"", classes), asks, text);
   }
 
   const Report& report_;
@@ -300,12 +366,19 @@ std::string notesOf(const Report& report) {
   return text + "</ul></details>\n";
 }
 
-/// "Beside this page: results.json (everything), cost.csv and junit.xml."
-std::string filesOf(const Report& report, bool ofSite) {
-  Names names = {ofSite ? "summary.md" : "results.json (everything)"};
+/// Links to the files beside the page.
+std::string filesOf(const Report& report, const DrawnFigures& drawings) {
+  Names names;
+  if (!drawings.ofSite) names.emplace_back("results.json");
   for (const auto& [name, content] : report.tables) names.push_back(name);
+  names.emplace_back("summary.md");
   if (report.checks) names.emplace_back("junit.xml");
-  return "Beside this page: " + listed(names) + ".";
+  const auto folder = drawings.folder.parent_path();
+  for (const char* const name : {"plots/", "runs/", "snapshots/", "packings/"})
+    if (!folder.empty() && std::filesystem::is_directory(folder / name)) names.emplace_back(name);
+  for (std::string& name : names) name = linked(name, escaped(name));
+  return "Made of, beside this page: " + listed(names) +
+         (drawings.ofSite ? "." : "; results.json holds everything.");
 }
 
 /// From the document's first line to its title.
@@ -334,7 +407,7 @@ std::string htmlLegend(const std::vector<EngineRow>& engines) {
 }
 
 /// The case, the files, and how to make the page again, to the document's last line.
-std::string htmlFoot(const Report& report, bool ofSite) {
+std::string htmlFoot(const Report& report, const DrawnFigures& drawings) {
   const CaseHead& setup = report.head.setup;
   std::string text;
   if (!setup.toml.empty())
@@ -345,8 +418,8 @@ std::string htmlFoot(const Report& report, bool ofSite) {
         setup.file.empty() ? "" : fmt::format(", from <code>{}</code>", escaped(setup.file)),
         escaped(setup.toml));
   if (!report.head.kind.empty()) {
-    text += "<h2 id=\"rebuild\">Files and rebuilding</h2>\n<p>" + escaped(filesOf(report, ofSite));
-    if (ofSite)
+    text += "<h2 id=\"rebuild\">Files and rebuilding</h2>\n<p>" + filesOf(report, drawings);
+    if (drawings.ofSite)
       text +=
           " The results folder has all the rest: results.json (everything), larger tables, scripts "
           "and data of the plots.";
@@ -427,7 +500,7 @@ std::string html(const Report& report, const DrawnFigures& drawings) {
   text += contentsOf(report);
   Writer writer(report, drawings);
   for (const Section& section : report.sections) writer.section(section);
-  return text + writer.take() + htmlFoot(report, drawings.ofSite);
+  return text + writer.take() + htmlFoot(report, drawings);
 }
 
 }  // namespace crossgrain::reports

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 
@@ -15,12 +17,16 @@ namespace crossgrain::reports {
 
 namespace {
 
-constexpr double pictureSize = 520.0;  // px
+constexpr double pictureSize = 520.0;    // px
+constexpr std::size_t mostBalls = 4000;  ///< of a drawing: the nearest ones
 
 struct Disk {
   double x = 0.0, y = 0.0, radius = 0.0;
   std::vector<double> outline = {};  ///< of a convex body
+  std::string colour = {};
 };
+
+constexpr const char *wallColour = "#555555", *plainColour = "#cccccc";
 
 /// Disks to draw; one without a position has radius 0.
 std::vector<Disk> disksOf(const std::vector<double>& x, const std::vector<double>& y,
@@ -91,19 +97,94 @@ std::string originColour(double radius, double angle, double bandWidth, double i
   return band % 2 == 0 ? strong[sector] : pale[sector];
 }
 
-void addWalls(const std::vector<Disk>& walls, Drawing& drawing) {
+/// 0 … 1 in steps of 1/16 along viridis (Smith and van der Walt, 2015), which any colour vision
+/// and greys keep in order.
+std::string shadeOf(double share) {
+  static constexpr std::array<std::array<int, 3>, 5> stops = {
+      {{68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
+  const double place = 0.25 * std::round(16.0 * std::clamp(share, 0.0, 1.0));
+  const std::size_t from = std::min<std::size_t>(3, static_cast<std::size_t>(place));
+  const double part = place - static_cast<double>(from);
+  std::string colour = "#";
+  for (std::size_t k = 0; k < 3; ++k)
+    colour += fmt::format(
+        "{:02x}", std::lround(stops[from][k] + part * (stops[from + 1][k] - stops[from][k])));
+  return colour;
+}
+
+/// Window that holds all of them, with a rim.
+Window windowOf(const ScenePicture& picture, const std::vector<Disk>& disks,
+                const std::vector<Disk>& walls) {
+  Window window;
+  for (const auto* group : {&disks, &walls})
+    for (const Disk& disk : *group)
+      if (disk.radius > 0.0)
+        window.add({disk.x - disk.radius, disk.x + disk.radius, disk.y - disk.radius,
+                    disk.y + disk.radius});
+  if (picture.circles)
+    for (const auto& [x, y, radius] : *picture.circles)
+      window.add({x - radius, x + radius, y - radius, y + radius});
+  window.widen(0.01);
+  return window;
+}
+
+/// Wall disks, planes as lines through the whole window, and circles.
+void addWalls(const ScenePicture& picture, const std::vector<Disk>& walls, Drawing& drawing) {
   Groups groups;
-  for (const Disk& wall : walls) groups.add("#555555", 2.0 * wall.radius, dot(wall));
+  for (const Disk& wall : walls) groups.add(wallColour, 2.0 * wall.radius, dot(wall));
+  const double line = drawing.window.larger() / 200.0;
+  if (picture.planes)
+    for (const auto& [x, y, nx, ny] : *picture.planes) {
+      const Window& window = drawing.window;
+      const double half = 2.0 * window.larger();
+      const double away = (0.5 * (window.left + window.right) - x) * nx +
+                          (0.5 * (window.bottom + window.top) - y) * ny;
+      const double footX = 0.5 * (window.left + window.right) - away * nx,
+                   footY = 0.5 * (window.bottom + window.top) - away * ny;
+      if (std::abs(away) < window.larger())
+        groups.add(wallColour, line,
+                   {footX - half * ny, footY + half * nx, footX + half * ny, footY - half * nx});
+    }
+  if (picture.circles)
+    for (const auto& [x, y, radius] : *picture.circles) {
+      constexpr int sides = 96;
+      const auto at = [&](int k) {
+        const double angle = 2.0 * std::numbers::pi * k / sides;
+        return std::pair(x + radius * std::cos(angle), y + radius * std::sin(angle));
+      };
+      for (int k = 0; k < sides; ++k)
+        groups.add(wallColour, line,
+                   {at(k).first, at(k).second, at(k + 1).first, at(k + 1).second});
+    }
   groups.moveTo(drawing);
 }
 
-Drawing emptyDrawing(const std::vector<Disk>& disks, const std::vector<Disk>& walls) {
-  Drawing drawing;
-  double reach = 0.0;
-  for (const auto* group : {&disks, &walls})
-    for (const Disk& disk : *group)
-      if (disk.radius > 0.0) reach = std::max(reach, std::hypot(disk.x, disk.y) + disk.radius);
-  drawing.halfWidth = reach > 0.0 ? reach * 1.01 : 1.0;
+/// Bodies in their colours, and walls: spheres as balls, the farthest first.
+Drawing bodiesDrawing(const ScenePicture& picture, const std::vector<Disk>& disks) {
+  auto walls = wallsOf(picture);
+  Drawing drawing{windowOf(picture, disks, walls), {}};
+  if (picture.depth) {
+    std::vector<std::pair<double, Ball>> balls;
+    const auto add = [&](const std::vector<Disk>& some,
+                         const std::optional<std::vector<double>>& depth) {
+      for (std::size_t k = 0; k < some.size(); ++k)
+        if (some[k].radius > 0.0 && depth)
+          balls.push_back({at(*depth, k).value_or(0.0),
+                           {some[k].x, some[k].y, some[k].radius, some[k].colour}});
+    };
+    for (Disk& wall : walls) wall.colour = wallColour;
+    add(disks, picture.depth);
+    add(walls, picture.wallDepth);
+    std::ranges::stable_sort(balls, std::greater(), [](const auto& ball) { return ball.first; });
+    balls.erase(balls.begin(), balls.end() - std::min(balls.size(), mostBalls));
+    for (auto& [depth, ball] : balls) drawing.balls.push_back(std::move(ball));
+    walls.clear();
+  }
+  Groups groups;
+  if (!picture.depth)
+    for (const Disk& disk : disks) groups.add(disk.colour, disk);
+  groups.moveTo(drawing);
+  addWalls(picture, walls, drawing);
   return drawing;
 }
 
@@ -147,55 +228,132 @@ double channel(const std::string& colour, std::size_t index) {
   return std::stoi(colour.substr(1 + 2 * index, 2), nullptr, 16) / 255.0;
 }
 
+/// "1 0 0 RG"; of what is filled "rg".
+std::string pdfColour(const std::string& colour, const char* what) {
+  return fmt::format("{:.3f} {:.3f} {:.3f} {}", channel(colour, 0), channel(colour, 1),
+                     channel(colour, 2), what);
+}
+
 /// PDF's operators of a page: colour, width, then a path to stroke.
 std::string pdfContent(const Drawing& drawing, double points) {
-  const double scale = points / (2.0 * drawing.halfWidth);
-  const auto place = [&](double v) { return shortNumber((v + drawing.halfWidth) * scale); };
+  const Window& window = drawing.window;
+  const double scale = points / window.larger();
+  const auto x = [&](double v) { return shortNumber((v - window.left) * scale); };
+  const auto y = [&](double v) { return shortNumber((v - window.bottom) * scale); };
   std::string content = "1 J\n";
+  for (const Ball& ball : drawing.balls)
+    for (const auto& [share, colour] :
+         {std::pair(1.0, std::string("#333333")), {0.94, ball.colour}})
+      content += fmt::format("{} {} w\n{} {} m {} {} l S\n", pdfColour(colour, "RG"),
+                             shortNumber(2.0 * share * ball.radius * scale), x(ball.x), y(ball.y),
+                             x(ball.x), y(ball.y));
   for (const StrokeGroup& group : drawing.groups) {
-    content += fmt::format("{:.3f} {:.3f} {:.3f} RG {} w\n", channel(group.colour, 0),
-                           channel(group.colour, 1), channel(group.colour, 2),
-                           shortNumber(group.width * scale));
+    content +=
+        fmt::format("{} {} w\n", pdfColour(group.colour, "RG"), shortNumber(group.width * scale));
     for (const Stroke& s : group.strokes)
-      content +=
-          fmt::format("{} {} m {} {} l\n", place(s.x1), place(s.y1), place(s.x2), place(s.y2));
+      content += fmt::format("{} {} m {} {} l\n", x(s.x1), y(s.y1), x(s.x2), y(s.y2));
     content += "S\n";
     if (group.outlines.empty()) continue;
-    content += fmt::format("{:.3f} {:.3f} {:.3f} rg\n", channel(group.colour, 0),
-                           channel(group.colour, 1), channel(group.colour, 2));
+    content += pdfColour(group.colour, "rg") + "\n";
     for (const std::vector<double>& outline : group.outlines) {
       for (std::size_t k = 0; k + 1 < outline.size(); k += 2)
-        content +=
-            fmt::format("{} {} {} ", place(outline[k]), place(outline[k + 1]), k == 0 ? "m" : "l");
+        content += fmt::format("{} {} {} ", x(outline[k]), y(outline[k + 1]), k == 0 ? "m" : "l");
       content += "f\n";
     }
   }
   return content;
 }
 
+/// Balls with their light from above left, a gradient for each colour.
+std::string svgBalls(const Drawing& drawing, const auto& x, const auto& y, double scale) {
+  Names colours;
+  std::string text, gradients;
+  for (const Ball& ball : drawing.balls) {
+    addOnce(colours, ball.colour);
+    const auto id = std::ranges::find(colours, ball.colour) - colours.begin();
+    text += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"url(#b{})\"/>\n", x(ball.x),
+                        y(ball.y), shortNumber(ball.radius * scale), id);
+  }
+  const auto mixed = [](const std::string& colour, double white) {
+    std::string result = "#";
+    for (std::size_t k = 0; k < 3; ++k)
+      result += fmt::format(
+          "{:02x}", std::lround(255.0 * (white > 0.0 ? channel(colour, k) * (1.0 - white) + white
+                                                     : channel(colour, k) * (1.0 + white))));
+    return result;
+  };
+  for (std::size_t k = 0; k < colours.size(); ++k)
+    gradients += fmt::format(
+        "<radialGradient id=\"b{}\" cx=\".36\" cy=\".32\" r=\".75\"><stop offset=\"0\" "
+        "stop-color=\"{}\"/><stop offset=\".5\" stop-color=\"{}\"/><stop offset=\"1\" "
+        "stop-color=\"{}\"/></radialGradient>\n",
+        k, mixed(colours[k], 0.6), colours[k], mixed(colours[k], -0.55));
+  return text.empty() ? text : "<defs>\n" + gradients + "</defs>\n" + text;
+}
+
 }  // namespace
 
+void Window::widen(double share) {
+  if (!(left <= right)) *this = {-1.0, 1.0, -1.0, 1.0};
+  const double rim = share * larger();
+  *this = {left - rim, right + rim, bottom - rim, top + rim};
+}
+
+void Window::add(const Window& other) {
+  *this = {std::min(left, other.left), std::max(right, other.right), std::min(bottom, other.bottom),
+           std::max(top, other.top)};
+}
+
+double fastestOf(const ScenePicture& picture) {
+  std::vector<double> speeds;
+  if (picture.speed)
+    for (const double speed : *picture.speed)
+      if (std::isfinite(speed)) speeds.push_back(speed);
+  if (speeds.empty()) return 0.0;
+  const auto place =
+      static_cast<std::ptrdiff_t>(std::ceil(0.98 * static_cast<double>(speeds.size() - 1)));
+  std::ranges::nth_element(speeds, speeds.begin() + place);
+  return speeds[static_cast<std::size_t>(place)];
+}
+
+Drawing sceneDrawing(const ScenePicture& picture, double fastest) {
+  auto disks = disksOf(picture);
+  double low = INFINITY, high = 0.0;
+  for (const Disk& disk : disks) {
+    low = std::min(low, disk.radius);
+    high = std::max(high, disk.radius);
+  }
+  for (std::size_t k = 0; k < disks.size(); ++k) {
+    const auto speed = picture.speed ? at(*picture.speed, k) : std::nullopt;
+    if (fastest > 0.0)
+      disks[k].colour = speed ? shadeOf(std::sqrt(*speed / fastest)) : plainColour;
+    else
+      disks[k].colour = shadeOf(high > low ? (disks[k].radius - low) / (high - low) : 0.5);
+  }
+  return bodiesDrawing(picture, disks);
+}
+
 Drawing originsDrawing(const ScenePicture& picture, double inner, double diameter) {
-  const auto disks = disksOf(picture);
-  const auto walls = wallsOf(picture);
-  Drawing drawing = emptyDrawing(disks, walls);
-  const double band = 2.0 * (diameter > 0.0 ? diameter : drawing.halfWidth / 15.0);
-  Groups groups;
+  auto disks = disksOf(picture);
+  double reach = 0.0;
+  for (const Disk& disk : disks) reach = std::max(reach, std::hypot(disk.x, disk.y));
+  const double band = 2.0 * (diameter > 0.0 ? diameter : reach / 15.0);
   for (std::size_t k = 0; k < disks.size(); ++k) {
     const auto radius = at(picture.startR, k), angle = at(picture.startPhi, k);
-    const bool known = radius && angle;
-    groups.add(known ? originColour(*radius, *angle, band, inner) : "#cccccc", disks[k]);
+    disks[k].colour = radius && angle ? originColour(*radius, *angle, band, inner) : plainColour;
   }
-  groups.moveTo(drawing);
-  addWalls(walls, drawing);
-  return drawing;
+  return bodiesDrawing(picture, disks);
 }
 
 Drawing forcesDrawing(const ScenePicture& picture, double widest, double width) {
   auto disks = disksOf(picture);
+  if (picture.depth) {  // without contacts
+    for (Disk& disk : disks) disk.colour = "#c8d4dc";
+    return bodiesDrawing(picture, disks);
+  }
   const auto walls = wallsOf(picture);
-  Drawing drawing = emptyDrawing(disks, walls);
-  const double outline = drawing.halfWidth / 500.0;
+  Drawing drawing{windowOf(picture, disks, walls), {}};
+  const double outline = drawing.window.larger() / 1000.0;
   double largest = 0.0;
   Groups rims, fills;
   for (const Disk& disk : disks) {
@@ -205,7 +363,7 @@ Drawing forcesDrawing(const ScenePicture& picture, double widest, double width) 
   }
   rims.moveTo(drawing);
   fills.moveTo(drawing);
-  addWalls(walls, drawing);
+  addWalls(picture, walls, drawing);
   disks.insert(disks.end(), walls.begin(), walls.end());
   addForces(picture, disks, widest, width * largest, drawing);
   return drawing;
@@ -236,13 +394,15 @@ ForceCount countForces(const ScenePicture& picture, double force) {
 }
 
 std::string toSvg(const Drawing& drawing, double size, const std::string& title) {
-  const double scale = size / (2.0 * drawing.halfWidth);
-  const auto x = [&](double v) { return shortNumber((v + drawing.halfWidth) * scale); };
-  const auto y = [&](double v) { return shortNumber((drawing.halfWidth - v) * scale); };
+  const Window& window = drawing.window;
+  const double scale = size / window.larger();
+  const auto x = [&](double v) { return shortNumber((v - window.left) * scale); };
+  const auto y = [&](double v) { return shortNumber((window.top - v) * scale); };
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{0}\" viewBox=\"0 0 {0} "
-      "{0}\">\n<title>{1}</title>\n<g fill=\"none\" stroke-linecap=\"round\">\n",
-      size, escaped(title));
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
+      "{1}\">\n<title>{2}</title>\n{3}<g fill=\"none\" stroke-linecap=\"round\">\n",
+      shortNumber(window.width() * scale), shortNumber(window.height() * scale), escaped(title),
+      svgBalls(drawing, x, y, scale));
   for (const StrokeGroup& group : drawing.groups) {
     for (const std::vector<double>& outline : group.outlines) {
       svg += fmt::format("<path fill=\"{}\" d=\"", group.colour);
@@ -263,12 +423,13 @@ std::string toSvg(const Drawing& drawing, double size, const std::string& title)
 }
 
 std::string toPdf(const Drawing& drawing, double size) {
-  const double points = size * 72.0 / 96.0;
+  const double points = size * 72.0 / 96.0, scale = points / drawing.window.larger();
   const std::string content = pdfContent(drawing, points);
   const Names objects = {
       "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
-      fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {0} {0}] /Contents 4 0 R >>",
-                  points),
+      fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {} {}] /Contents 4 0 R >>",
+                  shortNumber(drawing.window.width() * scale),
+                  shortNumber(drawing.window.height() * scale)),
       fmt::format("<< /Length {} >>\nstream\n{}endstream", content.size(), content)};
   std::string pdf = "%PDF-1.4\n";
   std::string places;

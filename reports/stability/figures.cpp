@@ -140,54 +140,12 @@ void dropFarAway(ScenePicture& picture) {
   drop(picture.wallX, picture.wallY);
 }
 
-/// Half way between the outermost of the disks.
-double centreOf(const std::vector<double>& places) {
-  double low = INFINITY, high = -INFINITY;
-  for (const double place : places)
-    if (std::isfinite(place)) {
-      low = std::min(low, place);
-      high = std::max(high, place);
-    }
-  return low <= high ? 0.5 * (low + high) : 0.0;
-}
-
-/// The picture with the disks about the origin.
-ScenePicture centred(ScenePicture picture) {
-  dropFarAway(picture);
-  const double x0 = centreOf(picture.x), y0 = centreOf(picture.y);
-  for (auto* xs : {&picture.x, &picture.wallX})
-    for (double& x : *xs) x -= x0;
-  for (auto* ys : {&picture.y, &picture.wallY})
-    for (double& y : *ys) y -= y0;
-  if (picture.planes)
-    for (auto& [x, y, normalX, normalY] : *picture.planes) {
-      x -= x0;
-      y -= y0;
-    }
-  return picture;
-}
-
-/// Planes as lines through the whole window.
-void addPlanes(const ScenePicture& picture, Drawing& drawing) {
-  if (!picture.planes) return;
-  StrokeGroup lines{"#555555", drawing.halfWidth / 100.0, {}};
-  for (const auto& [x, y, nx, ny] : *picture.planes) {
-    const double away = x * nx + y * ny, half = 3.0 * drawing.halfWidth;
-    const double footX = away * nx, footY = away * ny;
-    if (std::abs(away) > drawing.halfWidth) continue;
-    lines.strokes.push_back(
-        {footX - half * ny, footY + half * nx, footX + half * ny, footY - half * nx});
-  }
-  if (!lines.strokes.empty()) drawing.groups.push_back(std::move(lines));
-}
-
 Picture pictureOf(const StabilityRun& run, std::size_t index) {
-  const ScenePicture shown = centred(*run.picture);
+  ScenePicture shown = *run.picture;
+  dropFarAway(shown);
   const auto widest = widestForce(shown);
   const std::string& variant = run.variant;
   Drawing drawing = forcesDrawing(shown, widest.value_or(1.0), 0.35);
-  drawing.halfWidth *= 1.08;
-  addPlanes(shown, drawing);
   return {fmt::format("worst_{}", index),
           run.engine,
           fmt::format("{}: {}{}{}", run.engine, run.name, variant.empty() ? "" : ", ", variant),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "stability/recording.hpp"
 #include "studies/core/run_store.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
@@ -27,9 +28,11 @@ std::vector<double> flat(const std::vector<Vec2>& outline) {
 ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation) {
   ScenePicture picture;
   picture.radius = scene.disks.radius;
+  picture.speed.emplace();
   for (std::size_t i = 0; i < scene.disks.size(); ++i) {
     picture.x.push_back(now.position[i].x());
     picture.y.push_back(now.position[i].y());
+    picture.speed->push_back(now.velocity[i].norm());
     const Vec2& start = scene.disks.position[i];
     picture.startR.push_back(start.norm());
     picture.startPhi.push_back(std::atan2(start.y(), start.x()));
@@ -51,6 +54,10 @@ ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotati
   for (const WallBody& body : scene.bodies)
     picture.wallRadius.insert(picture.wallRadius.end(), body.diskRadius.begin(),
                               body.diskRadius.end());
+  picture.planes.emplace();
+  for (const Plane& plane : planesAt(scene, now.positionTime))
+    picture.planes->push_back(
+        {plane.point.x(), plane.point.y(), plane.normal.x(), plane.normal.y()});
   picture.time = now.positionTime;
   picture.rotation = rotation;
   if (now.contacts) {
@@ -61,55 +68,103 @@ ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotati
   return picture;
 }
 
+namespace {
+
+/// The plane y = cut that pictures of space begin at: the middle, or in front of a few spheres.
+double cutOf(const SpaceScene& scene, const SpaceSnapshot& now) {
+  constexpr std::size_t few = 50;
+  if (now.position.empty()) return 0.0;
+  const auto [left, right] =
+      std::ranges::minmax(now.position, {}, [](const Vec3& x) { return x.y(); });
+  if (now.position.size() <= few && !now.turn && !scene.box) return left.y();
+  return scene.box ? 0.5 * (scene.box->low + scene.box->high).y() : 0.5 * (left + right).y();
+}
+
+/// Lines and circles that planes and cylinders cut out of the plane y = cut.
+void addWalls(const SpaceScene& scene, double t, double cut, ScenePicture& picture) {
+  constexpr double steep = 0.1;
+  picture.planes.emplace();
+  picture.circles.emplace();
+  for (const PlaneOf<3>& plane : planesAt(scene, t)) {
+    const Vec2 across(plane.normal.x(), plane.normal.z());
+    if (across.norm() < steep) continue;
+    const Vec2 at = Vec2(plane.point.x(), plane.point.z()) +
+                    across * plane.normal.y() * (plane.point.y() - cut) / across.squaredNorm();
+    picture.planes->push_back({at.x(), at.y(), across.normalized().x(), across.normalized().y()});
+  }
+  for (const auto& body : scene.bodies)
+    for (const Cylinder& cylinder : body.cylinders) {
+      const Vec2 at(cylinder.point.x(), cylinder.point.z());
+      const Vec2 along(cylinder.axis.x(), cylinder.axis.z());
+      const double away = cylinder.point.y() - cut;
+      if (along.norm() < steep) {
+        picture.circles->push_back({at.x(), at.y(), cylinder.radius});
+      } else if (std::abs(cylinder.axis.y()) < steep && std::abs(away) < cylinder.radius) {
+        const double half = std::sqrt(cylinder.radius * cylinder.radius - away * away);
+        const Vec2 across(along.y() / along.norm(), -along.x() / along.norm());
+        for (const double side : {-1.0, 1.0})
+          picture.planes->push_back({at.x() + side * half * across.x(),
+                                     at.y() + side * half * across.y(), across.x(), across.y()});
+      }
+    }
+}
+
+}  // namespace
+
 ScenePicture scenePicture(const SpaceScene& scene, const SpaceSnapshot& now, double rotation) {
   const auto wrapped = [&](const Vec3& x) { return scene.box ? scene.box->wrapped(x) : x; };
-  Vec3 cut = Vec3::Zero();
-  if (scene.box) {
-    cut = 0.5 * (scene.box->low + scene.box->high);
-  } else if (!now.position.empty()) {
-    const auto [left, right] =
-        std::ranges::minmax(now.position, {}, [](const Vec3& x) { return x.y(); });
-    cut = 0.5 * (left + right);
-  }
-  // Radius of the disc that is cut out of a sphere; absent beside it.
-  const auto cutRadius = [&](const Vec3& x, double a) -> std::optional<double> {
-    const Vec3 away = scene.box ? scene.box->nearest(x - cut) : Vec3(x - cut);
-    const double square = a * a - away.y() * away.y();
-    return square > 0.0 ? std::optional(std::sqrt(square)) : std::nullopt;
+  const double cut = cutOf(scene, now);
+  const auto behind = [&](const Vec3& x) {
+    const Vec3 away = x - cut * Vec3::UnitY();
+    return scene.box ? scene.box->nearest(away).y() : away.y();
   };
   ScenePicture picture;
+  picture.cut = cut;
+  picture.speed.emplace();
+  if (now.turn)
+    picture.outlines.emplace();
+  else
+    picture.depth.emplace();
   for (std::size_t i = 0; i < scene.disks.size(); ++i) {
-    const auto radius = cutRadius(now.position[i], scene.disks.radius[i]);
-    if (!radius) continue;
+    const Vec3 x = wrapped(now.position[i]), start = wrapped(scene.disks.position[i]);
+    const double depth = behind(now.position[i]);
+    double radius = scene.disks.radius[i];
+    // Convex bodies show the section that the cut is, and so do spheres beside them.
     if (now.turn) {
-      const Vec3 away =
-          scene.box ? scene.box->nearest(now.position[i] - cut) : Vec3(now.position[i] - cut);
+      const double square = radius * radius - depth * depth;
+      if (square <= 0.0) continue;
+      radius = std::sqrt(square);
       std::vector<Vec2> section;
       if (scene.isConvex(i)) {
-        section = sectionOf(scene.shapeOf(i), (*now.turn)[i], -away.y());
+        section = sectionOf(scene.shapeOf(i), (*now.turn)[i], -depth);
         if (section.size() < 3) continue;
       }
-      for (Vec2& place : section)
-        place += Vec2(wrapped(now.position[i]).x(), wrapped(now.position[i]).z());
-      if (!picture.outlines) picture.outlines.emplace();
+      for (Vec2& place : section) place += Vec2(x.x(), x.z());
       picture.outlines->push_back(flat(section));
+    } else if (depth < 0.0) {
+      continue;
+    } else {
+      picture.depth->push_back(depth);
     }
-    const Vec3 x = wrapped(now.position[i]), start = wrapped(scene.disks.position[i]);
-    picture.radius.push_back(*radius);
+    picture.radius.push_back(radius);
     picture.x.push_back(x.x());
     picture.y.push_back(x.z());
+    picture.speed->push_back(now.velocity[i].norm());
     picture.startR.push_back(std::hypot(start.x(), start.z()));
     picture.startPhi.push_back(std::atan2(start.z(), start.x()));
   }
   const std::vector<double> radii = scene.radii();
+  picture.wallDepth.emplace();
   for (std::size_t w = 0; w < now.wallPosition.size(); ++w) {
-    const auto radius = cutRadius(now.wallPosition[w], radii[scene.disks.size() + w]);
-    if (!radius) continue;
+    const double depth = behind(now.wallPosition[w]);
+    if (depth < 0.0) continue;
     const Vec3 x = wrapped(now.wallPosition[w]);
     picture.wallX.push_back(x.x());
     picture.wallY.push_back(x.z());
-    picture.wallRadius.push_back(*radius);
+    picture.wallRadius.push_back(radii[scene.disks.size() + w]);
+    picture.wallDepth->push_back(depth);
   }
+  addWalls(scene, now.positionTime, cut, picture);
   picture.time = now.positionTime;
   picture.rotation = rotation;
   return picture;

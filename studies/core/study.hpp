@@ -140,13 +140,13 @@ std::string timeStamp();
 /// Head of all results.
 ResultsHead headOf(std::string_view kind, const Case& setup, const std::string& command);
 
-/// Data of the report's two pictures from one snapshot: disks with the place they started from
-/// (scene) and contacts with their normal force. @param rotation  of the wheel so far
+/// Data of the report's pictures from one snapshot: disks with the place they started from (scene),
+/// planes, and contacts with their normal force. @param rotation  of the wheel so far
 ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotation);
 
-/// The same in space, of a cut along x and z through the middle of the box, or of all spheres:
-/// discs of √(a² − (y − y_cut)²), in the box. It has no contacts: which of them lie in a cut is not
-/// defined.
+/// The same in space, seen along y from the middle of the box, or of all spheres: spheres whose
+/// centres lie behind that cut. Of convex bodies, and spheres beside them, what the cut is. It has
+/// no contacts.
 ScenePicture scenePicture(const SpaceScene& scene, const SpaceSnapshot& now, double rotation);
 
 }  // namespace crossgrain::inline studies

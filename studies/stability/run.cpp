@@ -183,25 +183,13 @@ void keepCurve(StabilityRun& row, const RecordingOf<D>& run, const std::vector<d
   }
 }
 
-template <int D>
-ScenePicture pictureAt(const RecordingOf<D>& run, std::size_t sample) {
-  const SnapshotOf<D>& now = run.snapshots[sample];
-  ScenePicture picture = scenePicture(run.scene, now, 0.0);
-  if constexpr (D == 3) return picture;
-  picture.planes.emplace();
-  for (const PlaneOf<D>& plane : planesAt(run.scene, now.positionTime))
-    picture.planes->push_back(
-        {plane.point.x(), plane.point.y(), plane.normal.x(), plane.normal.y()});
-  return picture;
-}
-
 /// The engine did not get to the end.
 template <int D>
 void judgeFailure(StabilityRun& row, const RecordingOf<D>& run) {
   fail(row, run.failure);
   if (run.snapshots.empty()) return;
   placeInTime(row, run, run.snapshots.size() - 1);
-  row.picture = pictureAt(run, run.snapshots.size() - 1);
+  row.picture = scenePicture(run.scene, run.snapshots.back(), 0.0);
 }
 
 template <int D>
@@ -215,7 +203,7 @@ void judgeCurve(StabilityRun& row, const Stability& hard, const RecordingOf<D>& 
   if (!judged.passed) return;
   placeInTime(row, run, *judged.passed);
   row.worstTime = run.snapshots[judged.worst].positionTime;
-  row.picture = pictureAt(run, judged.worst);
+  row.picture = scenePicture(run.scene, run.snapshots[judged.worst], 0.0);
 }
 
 /// Sets the entries of a row that every measure has: parameters and cost.

@@ -142,7 +142,7 @@ TEST(Gnuplot, Failure_IsOneLineWithItsLastWord) {
 
 /// A window of ±1 on 100 px: (0.5, 0.5) lies at x = 75, and 25 from the top.
 TEST(Strokes, Svg_PutsYUpward) {
-  const Drawing drawing{1.0, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}, {-1, -1, 1, 1}}}}};
+  const Drawing drawing{{-1, 1, -1, 1}, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}, {-1, -1, 1, 1}}}}};
   const std::string svg = toSvg(drawing, 100, "a < b");
   EXPECT_NE(svg.find("<path stroke=\"#ff0000\" stroke-width=\"10\" d=\"M75 25h0M0 100L100 0\"/>"),
             std::string::npos)
@@ -152,7 +152,7 @@ TEST(Strokes, Svg_PutsYUpward) {
 
 /// The same window on 75 points (100 px at 96 per inch), y upward as PDF has it.
 TEST(Strokes, Pdf_HasTheSameStrokesAndAValidTable) {
-  const Drawing drawing{1.0, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}}}}};
+  const Drawing drawing{{-1, 1, -1, 1}, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}}}}};
   const std::string pdf = toPdf(drawing, 100);
   EXPECT_NE(pdf.find("1.000 0.000 0.000 RG 7.5 w\n56.25 56.25 m 56.25 56.25 l\nS\n"),
             std::string::npos)
@@ -172,24 +172,46 @@ TEST(Pictures, Forces_AreDrawnOnTheFirstEnginesScale) {
   const auto widest = widestForce(results.runs[0].picture.value());
   ASSERT_TRUE(widest.has_value());
   const auto pictures = comparePictures(results);
-  ASSERT_EQ(pictures.size(), 8u);  // origins and forces of four engines that ran
-  EXPECT_EQ(pictures[0].name, "origins_1_grain");
-  EXPECT_EQ(pictures[7].name, "forces_4_grain_yade");
-  for (const Picture& picture : pictures)
-    EXPECT_EQ(picture.drawing.halfWidth, pictures[0].drawing.halfWidth);
+  ASSERT_EQ(pictures.size(), 12u);  // scene, origins and forces of four engines that ran
+  EXPECT_EQ(pictures[0].name, "scene_1_grain");
+  EXPECT_EQ(pictures[4].name, "origins_1_grain");
+  EXPECT_EQ(pictures[11].name, "forces_4_grain_yade");
+  for (const Picture& picture : pictures) {
+    EXPECT_EQ(picture.drawing.window.left, pictures[0].drawing.window.left);
+    EXPECT_EQ(picture.drawing.window.top, pictures[0].drawing.window.top);
+  }
   const auto linesOf = [&](std::size_t place) {
     return toSvg(comparePictures(results)[place].drawing, 100, "");
   };
   // Twice the forces of all engines: the same lines.
   for (FlowRun& run : results.runs)
     for (double& force : run.picture->contactForce.value()) force *= 2.0;
-  EXPECT_EQ(linesOf(4), toSvg(pictures[4].drawing, 100, ""));
-  EXPECT_EQ(linesOf(5), toSvg(pictures[5].drawing, 100, ""));
+  EXPECT_EQ(linesOf(8), toSvg(pictures[8].drawing, 100, ""));
+  EXPECT_EQ(linesOf(9), toSvg(pictures[9].drawing, 100, ""));
   // Twice those of the second alone: its lines are wider, the first's are as they were.
   for (double& force : results.runs[1].picture->contactForce.value()) force *= 2.0;
   EXPECT_EQ(results.runs[1].engine, "yade");
-  EXPECT_EQ(linesOf(4), toSvg(pictures[4].drawing, 100, ""));
-  EXPECT_NE(linesOf(5), toSvg(pictures[5].drawing, 100, ""));
+  EXPECT_EQ(linesOf(8), toSvg(pictures[8].drawing, 100, ""));
+  EXPECT_NE(linesOf(9), toSvg(pictures[9].drawing, 100, ""));
+}
+
+/// A scene beside the origin fills its frame; one of it in space is of balls, the nearest last.
+TEST(Pictures, Scene_FillsItsFrameAndBallsCoverThoseBehind) {
+  ScenePicture picture;
+  picture.radius = {1.0, 1.0};
+  picture.x = {10.0, 13.0};
+  picture.y = {-20.0, -20.0};
+  picture.speed = {0.0, 2.0};
+  const Drawing flat = sceneDrawing(picture, fastestOf(picture));
+  EXPECT_NEAR(flat.window.left, 8.9, 0.1);
+  EXPECT_NEAR(flat.window.width() / flat.window.height(), 2.5, 0.1);
+  EXPECT_EQ(flat.groups.size(), 2u);  // slow and fast differ
+  picture.depth = {0.5, 3.0};
+  picture.cut = 0.1;
+  const Drawing deep = sceneDrawing(picture, 2.0);
+  ASSERT_EQ(deep.balls.size(), 2u);
+  EXPECT_EQ(deep.balls[0].x, 13.0);
+  EXPECT_NE(toSvg(deep, 100, "").find("<radialGradient"), std::string::npos);
 }
 
 TEST(Pictures, Forces_AreCounted) {

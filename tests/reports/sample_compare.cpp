@@ -122,7 +122,7 @@ Json checks(Noise& noise) {
 Json picture(int disks, Noise& noise) {
   Json p = {{"time_s", 3.14}, {"rotation", 0.5}};
   for (const char* key : {"radius", "x", "y", "start_r", "start_phi", "wall_x", "wall_y",
-                          "wall_radius", "contact_i", "contact_j", "contact_force"})
+                          "wall_radius", "speed", "contact_i", "contact_j", "contact_force"})
     p[key] = Json::array();
   int made = 0;
   for (double r = inner + 0.005; r < outer - 0.004 && made < disks; r += 0.0073) {
@@ -135,6 +135,7 @@ Json picture(int disks, Noise& noise) {
       p["y"].push_back(r * std::sin(start + turn));
       p["start_r"].push_back(r);
       p["start_phi"].push_back(start);
+      p["speed"].push_back(inner * std::exp(-(r - inner) / diameter / 1.9));
       if (k == 0) continue;
       const double force = std::pow(std::abs(noise()), 4) * 0.02;
       p["contact_i"].push_back(made - 1);
@@ -274,6 +275,10 @@ Json endpoints(const std::string& a, const std::string& b, const std::string& ki
                 {"packings", 4},
                 {"lost", 0}};
     if (decided) {
+      row["reference_half"] = 12.0;
+      row["value_half"] = 14.0;
+      row["low"] = 25.0 * (distance - 0.3);
+      row["high"] = 25.0 * (distance + 0.3);
       row["distance_low"] = distance - (std::string_view(answer) == "small_difference" ? 0.1 : 0.3);
       row["distance_high"] = distance + 0.3;
     } else {

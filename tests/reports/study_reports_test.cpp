@@ -98,9 +98,14 @@ TEST(StabilityOverview, DegradedCase_StandsInTheHead) {
 TEST(StabilityPictures, SceneFarAway_IsCentred) {
   const auto pictures = stabilityPictures(sample::stabilityResults());
   ASSERT_EQ(pictures.size(), 1u);
-  EXPECT_LT(pictures[0].drawing.halfWidth, 10.0);
+  EXPECT_LT(pictures[0].drawing.window.larger(), 10.0);
   // The plane at y = −1 is a line through the window.
-  const Stroke& line = pictures[0].drawing.groups.back().strokes.front();
+  const auto isLine = [](const StrokeGroup& group) {
+    return !group.strokes.empty() && group.strokes[0].x1 != group.strokes[0].x2;
+  };
+  const auto lines = std::ranges::find_if(pictures[0].drawing.groups, isLine);
+  ASSERT_NE(lines, pictures[0].drawing.groups.end());
+  const Stroke& line = lines->strokes.front();
   EXPECT_NEAR(line.y1, -1.0, 1e-12);
   EXPECT_NEAR(line.y2, -1.0, 1e-12);
 }

@@ -184,19 +184,26 @@ TEST(SpaceRegion, PlacesAreAlongTheAxisOfSlabsAndOfRingsLayerByLayer) {
             (std::vector<double>{1.0, 1.0, 3.0, 3.0}));
 }
 
-TEST(SpaceRegion, PictureIsACutThroughTheMiddleOfTheBox) {
-  // y = 1.5 m: spheres at y = 1 and, by another image, 1.8 m; the third lies beside it.
+TEST(SpaceRegion, PictureIsOfSpheresBehindTheMiddleOfTheBox) {
+  // y = 1.5 m: a sphere in front of it, at y = 1, and behind it at 2 and, by another image, 1.8 m.
   Cell3d cell;
   cell.scene.disks.radius = {0.7, 0.5, 0.4};
-  cell.scene.disks.position = {Vec3(0.0, 0.0, 3.0), Vec3::Zero(), Vec3::Zero()};
+  cell.scene.disks.position = {Vec3::Zero(), Vec3(0.0, 0.0, 3.0), Vec3::Zero()};
   cell.now.position = {Vec3(0.1, 1.0, 0.5), Vec3(5.0, -1.2, 3.5), Vec3(0.0, 2.0, 0.0)};
+  cell.now.velocity = {Vec3::Zero(), Vec3(3.0, 4.0, 0.0), Vec3::Zero()};
   const ScenePicture picture = scenePicture(cell.scene, cell.now, 0.25);
   ASSERT_EQ(picture.x.size(), 2U);
-  EXPECT_NEAR(picture.radius[0], std::sqrt(0.49 - 0.25), 1e-15);
-  EXPECT_NEAR(picture.radius[1], 0.4, 1e-15);
-  EXPECT_NEAR(picture.x[1], 1.0, 1e-15);
-  EXPECT_NEAR(picture.y[1], 3.5, 1e-15);
+  EXPECT_DOUBLE_EQ(*picture.cut, 1.5);
+  EXPECT_EQ(picture.radius, (std::vector<double>{0.5, 0.4}));
+  EXPECT_NEAR(picture.depth->at(0), 0.3, 1e-15);
+  EXPECT_NEAR(picture.depth->at(1), 0.5, 1e-15);
+  EXPECT_EQ(*picture.speed, (std::vector<double>{5.0, 0.0}));
+  EXPECT_NEAR(picture.x[0], 1.0, 1e-15);
+  EXPECT_NEAR(picture.y[0], 3.5, 1e-15);
   EXPECT_NEAR(picture.startR[0], 3.0, 1e-15);
+  // The two walls are lines z = 4 and z = 0.
+  ASSERT_EQ(picture.planes->size(), 2U);
+  EXPECT_EQ(picture.planes->at(0), (std::array{0.0, 4.0, 0.0, -1.0}));
   EXPECT_FALSE(picture.contactI);
 }
 
