@@ -144,7 +144,8 @@ class Results:
         if packing is None:
             runs = sum(p.packing != "all" for p in of_field)
             packing = "all" if runs > 1 else of_field[0].packing
-            if runs == 1 and any(p.packing == "all" for p in everything):
+            engines = [run["engine"] for run in self.runs() if not run.get("without")]
+            if runs == 1 and len(engines) > len(set(engines)):  # some engine has several
                 raise KeyError(f"no verdict rests on the single run of {engine}: ask for it by packing={packing}")
         return _one([p for p in of_field if p.packing == packing], f"packing {packing}", {p.packing for p in of_field})
 

@@ -94,7 +94,8 @@ std::string sceneWords(const CompareResults& results, const ScenePicture& pictur
           : std::string("size"));
   const double cut = picture.cut.value_or(0.0);
   // A place that is less than a hundredth of a body from 0 is 0.
-  const std::string place = readable(std::abs(cut) < 0.01 * picture.radius.front() ? 0.0 : cut);
+  const std::string place =
+      readable(std::abs(cut) < 0.01 * at(picture.radius, 0).value_or(0.0) ? 0.0 : cut);
   if (picture.depth)
     text += fmt::format(
         " Seen along y, x to the right and z upward: spheres in front of the plane y = {} m are "

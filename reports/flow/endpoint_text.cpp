@@ -8,6 +8,7 @@
 
 #include "cases/endpoints.hpp"
 #include "reports/common/text.hpp"
+#include "results/lockstep_text.hpp"
 
 namespace crossgrain::reports {
 
@@ -126,7 +127,8 @@ std::string describe(const SurrogateEngine& own) {
   if (!own.late.equivalents.empty()) {
     Names changes;
     for (const EquivalentChange& one : own.late.equivalents)
-      changes.push_back(fmt::format("{} % of {}", readable(100.0 * one.change), one.constant));
+      changes.push_back(
+          fmt::format("{} % of {}", readable(100.0 * one.change), constantSymbol(one.constant)));
     parts.push_back(
         fmt::format("{} windows of {} over its own run of packing {} differ from the mirror as at "
                     "most {} would",
