@@ -94,6 +94,7 @@ TEST(SpaceRegion, OwnSpin_IsAboutAxesOfTheBodyAsTheyLayAtItsStart) {
   cell.scene.disks.moments = {Vec3::Constant(0.1), Vec3::Constant(0.1)};
   cell.now.turn = {{now.w(), now.x(), now.y(), now.z()}, noTurn<3>()};
   (*cell.now.spin)[0] = {1.0, 2.0, 3.0};
+  cell.now.contacts->point = {Vec3(0.1, 1.0, 0.0), Vec3(5.0, 1.0, 4.0)};
   FlowAverages averages(setup, cell.scene);
   averages.add(cell.now);
   FlowRun run;

@@ -206,7 +206,7 @@ class Space(SystemTest):
     def test_rigid_law_in_space_has_no_mirror_and_is_compared_all_the_same(self):
         case = self.write("rigid.toml", RIGID_ROOM)
         self.held("check", case, "--engines", "bullet,ode", "--no-timing")
-        done = self.run_program("compare", case, "--engines", "bullet,ode", "--out", self.out)
+        done = self.run_program("compare", case, "--engines", "bullet,ode", "-v", "--out", self.out)
         self.assert_status(done, HELD, FELL_SHORT)
         self.assertIn("there is no mirror: grain, which mirrors are made of, has no rigid contacts in space", done.stdout)
         self.assertEqual({"height"}, {row["endpoint"] for row in self.rows("endpoints.csv") if row["kind"] == "peer"})

@@ -272,7 +272,7 @@ class EngineFile(SystemTest):
         program = PYTHON.with_name("engine.py")
         done = self.lockstep(f"--engine=mine=python3 {program}", "--engines=mine")
         self.assert_status(done, HELD)
-        self.assertIn("mine: identical to rounding", done.stdout)
+        self.assertIn("mine is the law that it declares.", done.stdout)
 
     def test_starts_once_where_it_is_only_asked(self):
         """Starting one takes up to seconds; its scene's conventions, law and steps are asked for one after the other."""
