@@ -23,6 +23,14 @@ struct AllDisks {
   }
 };
 
+/// The shortest way from the centre of a body out of it: the radius of one that is round [m].
+template <int D>
+double thinnest(const SceneOf<D>& scene, const std::vector<double>& radius, std::size_t i) {
+  if (i >= scene.disks.size() || !scene.isConvex(i)) return radius[i];
+  const ShapeOf<D> centre = roundShape<D>(0.0);
+  return overlapOf<D>({&scene.shapeOf(i)}, {&centre});
+}
+
 template <int D>
 std::optional<DeepStartOf<D>> deepInWall(const SceneOf<D>& scene,
                                          const std::function<double(double, double)>& limit) {
@@ -31,11 +39,12 @@ std::optional<DeepStartOf<D>> deepInWall(const SceneOf<D>& scene,
   /// @param planeFor  what a disk at a place meets
   const auto check = [&](auto&& planeFor) {
     for (std::size_t i = 0; i < scene.disks.size() && !found; ++i) {
-      const double radius = scene.disks.radius[i];
       const PlaneOf<D> plane = planeFor(scene.disks.position[i]);
       const double overlap = overlapWithPlane<D>(scene, i, scene.disks.position[i],
                                                  {plane.point, plane.normal.normalized()});
-      if (overlap > limit(radius, radius)) found = {i, id, scene.disks.position[i], overlap, false};
+      if (overlap <= 0.0) continue;
+      const double radius = thinnest(scene, scene.disks.radius, i), allowed = limit(radius, radius);
+      if (overlap > allowed) found = {i, id, scene.disks.position[i], overlap, allowed, false};
     }
     ++id;
   };
@@ -74,8 +83,10 @@ std::optional<DeepStartOf<D>> deepStart(const SceneOf<D>& scene,
     if (scene.box) apart = scene.box->nearest(apart);
     const double distance = apart.norm();
     const double overlap = overlapOfPair(scene, i, j, apart);
-    if (distance == 0.0 || overlap > limit(radius[i], radius[j]))
-      first = {i, j, position[i], overlap, distance == 0.0};
+    if (distance > 0.0 && overlap <= 0.0) return;
+    const double allowed = limit(thinnest(scene, radius, i), thinnest(scene, radius, j));
+    if (distance == 0.0 || overlap > allowed)
+      first = {i, j, position[i], overlap, allowed, distance == 0.0};
   });
   if (first) return first;
   return deepInWall(scene, limit);

@@ -14,13 +14,14 @@ struct DeepStartOf {
   std::size_t i, j;  ///< ids, as nameOfId() takes them
   VecOf<D> place;    ///< centre of the first [m]
   double overlap;    ///< [m]
+  double allowed;    ///< overlap [m]
   bool sameCentre;
 };
 using DeepStart = DeepStartOf<2>;
 
 /// The first pair with one centre, or with an overlap beyond limit(radius, radius) [m], in a
 /// periodic box also across its borders. Disks of walls may overlap each other; to a plane, both
-/// radii are the disk's.
+/// radii are the disk's. The radius of a convex body is the shortest way from its centre out of it.
 /// @pre all positions are finite
 template <int D>
 std::optional<DeepStartOf<D>> deepStart(const SceneOf<D>& scene,

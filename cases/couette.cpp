@@ -173,8 +173,12 @@ void checkStart(const SceneOf<D>& scene, const Particles& particles, const std::
   if (const std::string why = beyondNumbers(scene); !why.empty()) throw BadInput(where + why);
   if constexpr (D == 2)
     if (cell) checkInCell(scene.disks, *cell, where);
-  const double limit = particles.maxOverlap * particles.smallRadius;
-  const auto deep = deepStart<D>(scene, [=](double, double) { return limit; });
+  const bool convex = !scene.shapes.empty();
+  const auto deep = deepStart<D>(scene, [&](double a, double b) {
+    const double thinner = std::min(a, b);
+    return particles.maxOverlap *
+           (convex ? std::min(particles.smallRadius, thinner) : particles.smallRadius);
+  });
   if (!deep) return;
   const auto lineOf = [&](std::size_t id) { return id < lines.size() ? lines[id] : 0; };
   const auto nameOf = [&](std::size_t id) {
@@ -189,10 +193,10 @@ void checkStart(const SceneOf<D>& scene, const Particles& particles, const std::
   if (const std::string why = outsideCylinder(scene, *deep); !why.empty())
     throw BadInput(fmt::format("{}: {} {}", place, nameOf(deep->i), why));
   throw BadInput(fmt::format(
-      "{}: {} overlap by {:.3g} m at the start, more than {} = {:g} of the small radius allows "
-      "({:.3g} m){}",
-      place, who, deep->overlap, particles.maxOverlapKey, particles.maxOverlap, limit,
-      unitHint(scene, *deep, limit)));
+      "{}: {} overlap by {:.3g} m at the start, more than {} = {:g} of {} allows ({:.3g} m){}",
+      place, who, deep->overlap, particles.maxOverlapKey, particles.maxOverlap,
+      convex ? "the way from the thinner body's centre out of it" : "the small radius",
+      deep->allowed, unitHint(scene, *deep, deep->allowed)));
 }
 template void checkStart<2>(const Scene&, const Particles&, const std::string&, const Cell*,
                             std::span<const int>);

@@ -127,10 +127,13 @@ void printEngine(const json& row, bool inFull) {
 
 void printChecked(const json& checked, const CommandLine& line) {
   const std::string variant = checked["variant"], name = checked["name"];
-  const char* const round = checked.contains("dimension") ? "spheres" : "disks";
-  say("{}: {} {}, {} wall {}, dt {:.3g} s\n", variant.empty() ? name : variant,
-      number(checked, "disks"), checked.contains("shapes") ? "bodies" : round,
-      number(checked, "wall_disks"), round, number(checked, "dt_s"));
+  const char* const round = checked.contains("dimension") ? "sphere" : "disk";
+  const auto count = [&](const char* key, const std::string& noun) {
+    return counted(checked[key].get<std::size_t>(), noun);
+  };
+  say("{}: {}, {}, dt {:.3g} s\n", variant.empty() ? name : variant,
+      count("disks", checked.contains("shapes") ? "body" : round),
+      count("wall_disks", std::string("wall ") + round), number(checked, "dt_s"));
   say("  effects called for: {}; left out: {}\n", listed(checked["effects"]),
       listed(checked["left_out"]));
   if (checked["steps_per_contact"].is_number())

@@ -4,7 +4,6 @@
 #include <unistd.h>
 #include <algorithm>
 #include <memory>
-#include <sstream>
 #include <thread>
 
 #include "adapters/registry.hpp"
@@ -53,12 +52,10 @@ std::vector<std::string> shapesOf(const Capabilities& can) {
   return shapes;
 }
 
-/// The number in "jolt-physics 0.35.0 (program 1a2b)".
+/// "jolt-physics 0.35.0" of "jolt-physics 0.35.0 (program 1a2b)": what a program calls itself, or is
+/// called by whom it is packed.
 std::string shortVersion(const std::string& version) {
-  std::istringstream words(version);
-  for (std::string word; words >> word;)
-    if (word.front() >= '0' && word.front() <= '9') return word.substr(0, word.find(','));
-  return version;
+  return version.substr(0, version.find_first_of(",("));
 }
 
 /// Their list, where it is not longer than a line has room for.
@@ -67,7 +64,7 @@ std::string bodiesOf(const Capabilities& can) {
   constexpr std::size_t many = 3;
   if (can.limits.shapes.size() > many) {
     shapes.erase(shapes.end() - std::ssize(can.limits.shapes), shapes.end());
-    shapes.push_back(fmt::format("{} convex shapes", can.limits.shapes.size()));
+    shapes.push_back(fmt::format("{} convex", can.limits.shapes.size()));
   }
   return fmt::format("{}", fmt::join(shapes, ", "));
 }
@@ -114,7 +111,7 @@ void printTable(const std::vector<Asked>& all) {
   };
   const auto columns = [](const std::string& version, const std::string& dimensions,
                           const std::string& contacts, const std::string& bodies) {
-    return padded(cut(version, 12), 14) + padded(dimensions, 6) + padded(contacts, 13) + bodies;
+    return padded(cut(version, 21), 23) + padded(dimensions, 6) + padded(contacts, 13) + bodies;
   };
   print("engine", columns("version", "dim.", "contacts", "bodies"));
   for (const auto& [entry, can, missing] : all) {

@@ -51,14 +51,14 @@ std::string inUnit(std::optional<double> value, const EndpointRow& row) {
   return readable(value) + (row.unit == "-" || row.unit == "1" ? "" : " " + row.unit);
 }
 
-/// "stress ratio: grain 0.31, margin 0.05"
+/// "stress ratio: grain 0.31, margin 0.05"; the median of the others is another for each engine.
 std::string headOf(const EndpointRow& row) {
   const std::string margin = row.marginRelative
                                  ? fmt::format("{} %", readableSetting(100.0 * row.margin))
                                  : readableSetting(row.margin);
-  return fmt::format("{}: {} {}, margin {}\n", reports::endpointWords(row.endpoint),
+  return fmt::format("{}: {}{}, margin {}\n", reports::endpointWords(row.endpoint),
                      row.kind == PairKind::closedForm ? "closed form" : reports::called(row.a),
-                     inUnit(row.reference, row), margin);
+                     row.a == medianName ? "" : " " + inUnit(row.reference, row), margin);
 }
 
 /// "yade", "0.33", "+0.02 (0.01 to 0.03)", "✓ agree"
@@ -71,7 +71,7 @@ std::array<std::string, 4> cellsOf(const EndpointRow& row) {
     if (finite(row.low) && finite(row.high))
       difference += fmt::format(" ({} to {})", readable(row.low), readable(row.high));
   }
-  return {row.b, readable(value), difference,
+  return {row.b, readablePair(value, row.reference).first, difference,
           fmt::format("{} {}", reports::lookOf(row.verdict).mark,
                       row.verdict == Verdict::pass ? "agree" : reports::spaced(row.answer()))};
 }
@@ -83,12 +83,14 @@ std::string endpointTable(const CompareResults& results, bool verbose) {
   constexpr std::size_t mostRows = 40;
   const bool all = verbose || rows.size() <= mostRows;
   std::array<std::size_t, 4> widths{};
-  std::vector<std::string> endpoints;
+  std::vector<std::pair<std::string, std::string>>
+      groups;  // endpoint, and what it is compared with
   for (const EndpointRow* row : rows) {
     const auto cells = cellsOf(*row);
     for (std::size_t k = 0; k < cells.size(); ++k)
       widths[k] = std::max(widths[k], displayWidth(cells[k]));
-    reports::addOnce(endpoints, row->endpoint);
+    const std::pair group(row->endpoint, row->a);
+    if (std::ranges::find(groups, group) == groups.end()) groups.push_back(group);
   }
   const auto lineOf = [&](const EndpointRow& row) {
     std::string line;
@@ -98,11 +100,11 @@ std::string endpointTable(const CompareResults& results, bool verbose) {
     return line + "\n";
   };
   std::string text;
-  for (const std::string& endpoint : endpoints) {
+  for (const auto& group : groups) {
     std::vector<std::string> agree;
     bool first = true;
     for (const EndpointRow* row : rows) {
-      if (row->endpoint != endpoint) continue;
+      if (std::pair(row->endpoint, row->a) != group) continue;
       if (std::exchange(first, false)) text += headOf(*row);
       if (all || row->verdict != Verdict::pass)
         text += lineOf(*row);
@@ -114,18 +116,28 @@ std::string endpointTable(const CompareResults& results, bool verbose) {
   return text;
 }
 
-/// "5 agree, 1 borderline, 2 disagree, 1 undecided; 0 of 64 runs failed"
+/// "5 agree, 1 borderline, 2 disagree, 1 undecided; 0 of 64 runs failed"; with closed forms, of
+/// these first, then "against grain 4 agree …".
 std::string countsOf(const CompareResults& results) {
-  std::map<Verdict, int> answers;
-  for (const EndpointRow* row : judgedRows(results)) ++answers[row->verdict];
+  std::map<std::string, std::map<Verdict, int>> against;
+  std::vector<std::string> names;  // of these, closed forms first
+  for (const EndpointRow* row : judgedRows(results)) {
+    reports::addOnce(names, row->a);
+    ++against[row->a][row->verdict];
+  }
+  if (names.empty()) names.emplace_back();
   std::string text;
-  if (!results.nothingJudged)
-    text = fmt::format("{} agree, {} borderline, {} disagree, {} undecided{}; ",
-                       answers[Verdict::pass], answers[Verdict::borderline], answers[Verdict::fail],
-                       answers[Verdict::undecided],
-                       answers[Verdict::notMeasured] == 0
-                           ? std::string()
-                           : fmt::format(", {} absent", answers[Verdict::notMeasured]));
+  for (const std::string& a : names)
+    if (auto& answers = against[a]; !results.nothingJudged)
+      text += fmt::format("{}{} agree, {} borderline, {} disagree, {} undecided{}; ",
+                          names.size() == 1     ? ""
+                          : a == closedFormName ? "with the closed forms "
+                                                : "against " + reports::called(a) + " ",
+                          answers[Verdict::pass], answers[Verdict::borderline],
+                          answers[Verdict::fail], answers[Verdict::undecided],
+                          answers[Verdict::notMeasured] == 0
+                              ? std::string()
+                              : fmt::format(", {} absent", answers[Verdict::notMeasured]));
   return text + fmt::format("{} of {} runs failed\n",
                             std::ranges::count(results.runs, Status::failed, &FlowRun::status),
                             results.runs.size());

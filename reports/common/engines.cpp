@@ -19,8 +19,8 @@ const std::array<std::string, 7> enginesColours = {"#000000", "#d55e00", "#0072b
 constexpr std::array filledMarks = {7, 5, 9, 13};
 
 /// Darker ones, for engines that this build does not know; each with all filledMarks.
-const std::array<std::string, 5> externalColours = {"#882255", "#332288", "#117733", "#999933",
-                                                    "#661100"};
+const std::array<std::string, 7> externalColours = {"#882255", "#332288", "#117733", "#999933",
+                                                    "#661100", "#e69f00", "#56b4e9"};
 constexpr std::size_t externalStyles = externalColours.size() * filledMarks.size();
 
 /// The open mark that goes with a filled one.
@@ -82,9 +82,23 @@ std::vector<LineStyle> engineStyles(const std::vector<EngineRow>& engines) {
       styles[owner] = engineStyle(*place);
       continue;
     }
-    std::size_t number = fnv1a(owner) % externalStyles;  // the same on every machine
-    for (std::size_t tried = 0; taken[number] && tried < externalStyles; ++tried)
-      number = (number + 1) % externalStyles;
+    // The same on every machine, but for a colour that another engine has.
+    const std::size_t first = fnv1a(owner) % externalStyles;
+    std::size_t number = first;
+    const auto find = [&](auto&& isFree) {
+      for (std::size_t tried = 0; tried < externalStyles; ++tried) {
+        number = (first + tried) % externalStyles;
+        if (isFree()) return true;
+      }
+      return false;
+    };
+    const auto ownColour = [&] {
+      for (std::size_t k = number % externalColours.size(); k < externalStyles;
+           k += externalColours.size())
+        if (taken[k]) return false;
+      return true;
+    };
+    if (!find(ownColour)) find([&] { return !taken[number]; });
     taken[number] = true;
     styles[owner] = strangersStyle(number);
   }

@@ -107,7 +107,7 @@ Table endpointVerdicts(const CompareResults& results, const std::string& a, cons
       table.rows.push_back(
           {{endpointLabel(name, !results.region), std::move(bar),
             closed ? reference : withHalf(reference, row.reference, row.referenceHalf),
-            withHalf(value, row.value(), row.valueHalf),
+            closed ? value : withHalf(value, row.value(), row.valueHalf),
             readableInterval(row.difference, row.low, row.high), row.unit == "-" ? "" : row.unit,
             marginText(row), verdictCell(results, row)},
            std::exchange(group, "")});

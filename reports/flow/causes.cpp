@@ -179,7 +179,11 @@ Names causesNotes(const CompareResults& results) {
 Names causeSentences(const CompareResults& results, std::size_t most) {
   Names sentences;
   std::vector<Explained> all = explained(results);
-  std::erase_if(all, [&](const auto& one) { return !isOfReference(results, *one.pair); });
+  // That engines of one law differ by their solvers says nothing where they agree.
+  std::erase_if(all, [&](const auto& one) {
+    return !isOfReference(results, *one.pair) ||
+           (one.pair->differences.empty() && one.row->verdict == Verdict::pass);
+  });
   for (const Explained& one : all) {
     if (sentences.size() == most) break;
     const bool closed = one.row->look == std::nullopt;
@@ -198,7 +202,10 @@ Names causeSentences(const CompareResults& results, std::size_t most) {
   for (const PairCauses& pair : results.causes) {
     if (!isOfReference(results, pair)) continue;
     if (!pair.reason.empty()) {
-      reasons.add(pairWords(pair), pair.reason);
+      reasons.add(results.endpoints.reference.empty()
+                      ? pairWords(pair)
+                      : pair.b + " against " + called(results.endpoints.reference),
+                  pair.reason);
     } else if (pair.missing) {
       (pair.endpoints.empty() ? open : partly).push_back(pair.b);
       (pair.endpoints.empty() ? seconds : further) += *pair.missing;

@@ -83,13 +83,13 @@ std::string nextOf(const LockstepFindings& findings) {
     if (row.verdict == Equivalence::notMeasured) unmeasured.push_back(row.engine);
   }
   if (!differ.empty())
-    return fmt::format("Next: see the first contact at which {} {}, in the table below.",
+    return fmt::format("Next: see the first contact at which {} {}, in the report.",
                        listed(differ), differ.size() == 1 ? "differs" : "differ");
   if (!undecided.empty())
     return fmt::format("Next: more starts for {}, e.g. --starts {}.", listed(undecided),
                        4 * findings.starts.size());
   if (unmeasured.size() == findings.rows.size())
-    return "Next: a scene whose contacts have a mirror; the reasons are in the table below.";
+    return "Next: a scene whose contacts have a mirror; the reasons are in the report.";
   return "Next: compare the averages; a fault that begins later than these windows is not seen "
          "here.";
 }

@@ -227,21 +227,21 @@ void Campaign::preparePackings(int count) {
   printNotes();
 }
 
-void Campaign::timeEngine(CampaignEngine& own) {
+void Campaign::timeEngine(CampaignEngine& own, const Case& setup) {
   const auto engine =
-      startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup_.run.timeout);
-  own.effective = inDimensionOf(setup_, [&]<int D>() {
-    return loadScene(*engine, own.entry, setup_, flowScene<D>(setup_, packings_.front(), dt_));
+      startEngine(own.entry, store_.scratch("time-" + own.entry.name), setup.run.timeout);
+  own.effective = inDimensionOf(setup, [&]<int D>() {
+    return loadScene(*engine, own.entry, setup, flowScene<D>(setup, packings_.front(), dt_));
   });
   own.can = engine->capabilities();
   const double dt = own.effective->dt;
-  own.predicted = briefSteps(*engine, dt).wall * flowDuration(setup_) / dt;
+  own.predicted = briefSteps(*engine, dt).wall * flowDuration(setup) / dt;
 }
 
 void Campaign::timeEngines() {
   if (!runsEngines()) return;
   forEachEngine([&](CampaignEngine& own) {
-    if (!own.entry.ofFiles()) timeEngine(own);
+    if (!own.entry.ofFiles()) timeEngine(own, setup_);
   });
   reportNonReusableWorkers(engines(), progress_);
 }
@@ -251,10 +251,17 @@ std::size_t Campaign::inHouse() {
   for (std::size_t e = 0; e < engines_.size(); ++e)
     if (engines_[e].entry.name == entry.name && engines_[e].can) return e;
   CampaignEngine own{entry};
-  timeEngine(own);
+  timeEngine(own, setup_);
   own.version = own.can->version;
   engines_.push_back(std::move(own));
   return engines_.size() - 1;
+}
+
+double Campaign::predictedSeconds(std::size_t engine, const Case& setup) {
+  preparePackings(1);
+  CampaignEngine own{engines_[engine].entry};
+  timeEngine(own, setup);
+  return own.predicted;
 }
 
 CaseKeys Campaign::keyOf(std::size_t engine, int packing, const std::string& part) const {

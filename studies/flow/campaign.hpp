@@ -85,6 +85,9 @@ class Campaign {
   /// belong to no pair, and later results name it. @throws UnsupportedScene, EngineFailure,
   /// BadInput
   std::size_t inHouse();
+  /// Seconds that an engine's run of a case takes, by a timing of some steps on the first packing,
+  /// which it prepares. @throws UnsupportedScene, EngineFailure, BadInput
+  double predictedSeconds(std::size_t engine, const Case& setup);
   /// Every engine with the case as it is.
   std::vector<Variant> wholeCase() const;
   /// On all packings that are prepared.
@@ -154,7 +157,7 @@ class Campaign {
   void forEachEngine(const std::function<void(CampaignEngine&)>& work, std::size_t fewest = 1);
   /// @throws AllRefused likewise
   void requireAble(std::size_t fewest) const;
-  void timeEngine(CampaignEngine& own);
+  void timeEngine(CampaignEngine& own, const Case& setup);
   std::vector<CachedTask<FlowRun>> tasksOf(const PlannedRuns& list) const;
   FlowRun runOfFiles(const CampaignEngine& own, int run,
                      const std::function<void(double)>& progress) const;

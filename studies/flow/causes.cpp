@@ -11,6 +11,7 @@
 #include "adapters/declared_law.hpp"
 #include "averaging/fields.hpp"
 #include "averaging/pocock.hpp"
+#include "averaging/statistics.hpp"
 #include "cases/endpoints.hpp"
 #include "cases/flow.hpp"
 #include "cases/materials.hpp"
@@ -261,17 +262,22 @@ class CausesOfPairs {
     double seconds = 0.0;  ///< 0: all are finished
   };
 
-  /// Of these mixtures on the first packings, all but what is there. Seconds are those that runs so
-  /// far took step by step, before any by a timing, times what such a prediction was wrong by.
+  /// Of one run of a mixture [s]: what its runs so far took, before any by a timing of its steps,
+  /// as laws may take some hundred times as long as others (rigid ones in a dense cell).
+  double secondsOf(const std::string& law, const Case& setup) {
+    std::vector<double> took;
+    for (const auto& [packing, run] : there_[law])
+      if (run->finished() && run->stats) took.push_back(run->stats->wallSeconds);
+    if (!took.empty()) return estimateMean(took).mean;
+    const auto [at, isNew] = timed_.try_emplace(law, 0.0);
+    if (isNew) at->second = campaign_.predictedSeconds(indexOf(inHouseName()), setup);
+    return at->second;
+  }
+
+  /// Of these mixtures on the first packings, all but what is there. Seconds are times what such a
+  /// prediction was wrong by.
   Block blockOf(const Pair& pair, const std::set<Mixture>& mixtures, int packings) {
     Block block;
-    double wall = 0.0, steps = 0.0;
-    for (const auto& [law, runs] : there_)
-      for (const auto& [packing, run] : runs) {
-        if (!run->finished() || !run->stats) continue;
-        wall += run->stats->wallSeconds;
-        steps += static_cast<double>(run->stats->steps);
-      }
     for (const Mixture mixture : mixtures) {
       const std::string& law = fingerprint(pair, mixture);
       int first = 0;
@@ -281,10 +287,8 @@ class CausesOfPairs {
       const PlannedRuns list{{{indexOf(inHouseName()), "", &setup, "mixture-" + law}},
                              {first, packings}};
       const auto missing = static_cast<double>(campaign_.missingRuns(list));
-      const double dt = std::get<double>(setup.engines.at(inHouseName()).at("dt"));
-      const double each = steps > 0.0 ? wall / steps * flowDuration(setup_) / dt
-                                      : campaign_.secondsOf({list}) / std::max(missing, 1.0);
-      block.seconds += missing * each * pace_ / std::max(command_.jobs, 1);
+      if (missing > 0.0)
+        block.seconds += missing * secondsOf(law, setup) * pace_ / std::max(command_.jobs, 1);
       block.lists.emplace(law, list);
     }
     return block;
@@ -526,7 +530,8 @@ class CausesOfPairs {
   RunsById ran_;
   /// All runs of the in-house engine, by the fingerprint of what it ran, and packing.
   std::map<std::string, std::map<int, const FlowRun*>> there_;
-  double pace_ = 1.0;  ///< time that runs took, of what was predicted
+  std::map<std::string, double> timed_;  ///< seconds of a run, by the fingerprint of what it runs
+  double pace_ = 1.0;                    ///< time that runs took, of what was predicted
 };
 
 }  // namespace

@@ -66,7 +66,7 @@ std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const En
   };
   if (std::ranges::any_of(rows, single))
     return NothingJudged{"a single run of each has no error of its own: too short, or at rest"};
-  return NothingJudged{fmt::format("{} packing{} of both engines, and a verdict needs at least {}",
+  return NothingJudged{fmt::format("{} packing{} of each engine, and a verdict needs at least {}",
                                    most, most == 1 ? "" : "s", fewest)};
 }
 

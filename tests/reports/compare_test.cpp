@@ -260,7 +260,7 @@ CompareResults randomResults(std::mt19937& random) {
   CompareResults results;
   for (const char* name : {"ours", "second", "third"})
     results.engines.push_back({name, "", "", "", Status::finished, ""});
-  if (upTo(3) == 0) results.nothingJudged = NothingJudged{"2 packings of both engines", false};
+  if (upTo(3) == 0) results.nothingJudged = NothingJudged{"2 packings of each engine", false};
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = a + 1; b < 3; ++b)
       for (const char* endpoint : {"pressure", "coordination", "mean_spin", "spin_at_wheel"}) {

@@ -44,9 +44,9 @@ TEST(NothingJudged, MissingMarginsPackingsOrRuns_SaysWhich) {
   };
   EXPECT_EQ(reason({}, Rows({row(PairKind::peer, 4)})), "the case has no [averaging.endpoints]");
   EXPECT_EQ(reason(judging(), Rows({row(PairKind::peer, 2), row(PairKind::peer, 1)})),
-            "2 packings of both engines, and a verdict needs at least 4");
+            "2 packings of each engine, and a verdict needs at least 4");
   EXPECT_EQ(reason(judging(), Rows({row(PairKind::peer, 1)})),
-            "1 packing of both engines, and a verdict needs at least 4");
+            "1 packing of each engine, and a verdict needs at least 4");
   EXPECT_EQ(reason(judging(), Rows({row(PairKind::mirrorModel, 8)})),
             "no two engines finished a run that shows an endpoint with a margin");
   EXPECT_EQ(reason(judging(), Rows({row(PairKind::peer, 0)})),

@@ -212,6 +212,18 @@ TEST(ConvexScene, StartsOverlapByTheirShapesAndNotByTheCirclesAround) {
   EXPECT_EQ(nameOfId(sunk, 1), "polygon 1");
 }
 
+/// Of a body that is thin and long, the length says nothing of how deep it may be.
+TEST(ConvexScene, StartsAreMeasuredByTheThinnestOfTheirBodies) {
+  Scene thin = twoSquares(0.3);
+  thin.shapes[0].vertices = {{-0.5, -0.01}, {0.5, -0.01}, {0.5, 0.01}, {-0.5, 0.01}};
+  thin.disks.position[0] = {0.0, -0.02};  // its centre is behind the plane
+  const auto deep = deepStart<2>(thin, [](double a, double b) { return 0.2 * std::min(a, b); });
+  ASSERT_TRUE(deep);
+  EXPECT_NEAR(deep->overlap, 0.03, 1e-12);
+  EXPECT_NEAR(deep->allowed, 0.2 * 0.01, 1e-12);
+  EXPECT_NE(startFault<2>(thin).find("a centre lies inside"), std::string::npos);
+}
+
 TEST(ConvexScene, ContactsOutsideOfTheirBodiesAreFaults) {
   const Scene scene = twoSquares(0.0);
   AuditBasis basis = auditBasis(scene);
