@@ -8,7 +8,7 @@
 
 #include "adapters/shape.hpp"
 
-/// What people write of convex bodies, checked.
+/// Checks of convex bodies as people write them.
 namespace crossgrain {
 
 /// The orientation that a quaternion says; absent unless that has length 1.

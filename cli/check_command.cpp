@@ -114,8 +114,7 @@ void printEngine(const json& row, bool inFull) {
   const std::size_t differences = row["deviations"].size() + row["not_simulated"].size();
   if (!inFull) {
     if (!cost.empty()) text += fmt::format(", {} a packing", lasting(number(row, "run_s")));
-    if (differences > 0)
-      text += fmt::format(", {} difference{}", differences, differences == 1 ? "" : "s");
+    if (differences > 0) text += ", " + counted(differences, "difference");
     return entry(text);
   }
   entry(text);

@@ -41,9 +41,7 @@ const std::vector<const Command*>& commands();
 /// `crossgrain __complete WORD …` prints what can stand in place of the last word.
 inline constexpr const char* completingCommand = "__complete";
 
-bool isInternal(const Command& command);
-
-/// The names of all others.
+/// Names of those that are for users: internal ones begin with __.
 std::vector<std::string> publicCommands();
 
 /// @throws BadInput for a name that no command has, with the one that was meant or what a removed

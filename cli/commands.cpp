@@ -36,14 +36,10 @@ const std::vector<const Command*>& commands() {
   return all;
 }
 
-bool isInternal(const Command& command) {
-  return std::string_view(command.name).starts_with("__");
-}
-
 std::vector<std::string> publicCommands() {
   std::vector<std::string> names;
   for (const Command* command : commands())
-    if (!isInternal(*command)) names.emplace_back(command->name);
+    if (!std::string_view(command->name).starts_with("__")) names.emplace_back(command->name);
   return names;
 }
 

@@ -63,15 +63,13 @@ std::string headOf(const EndpointRow& row) {
 
 /// "yade", "0.33", "+0.02 (0.01 to 0.03)", "✓ agree"
 std::array<std::string, 4> cellsOf(const EndpointRow& row) {
-  std::optional<double> value;
-  if (row.reference && row.difference) value = *row.reference + *row.difference;
   std::string difference = absentText;
   if (const auto by = finite(row.difference)) {
     difference = (*by > 0.0 ? "+" : "") + readable(by);
     if (finite(row.low) && finite(row.high))
       difference += fmt::format(" ({} to {})", readable(row.low), readable(row.high));
   }
-  return {row.b, readablePair(value, row.reference).first, difference,
+  return {row.b, readablePair(row.value(), row.reference).first, difference,
           fmt::format("{} {}", reports::lookOf(row.verdict).mark,
                       row.verdict == Verdict::pass ? "agree" : reports::spaced(row.answer()))};
 }
@@ -197,13 +195,13 @@ std::string verdictText(const StabilityRun& run) {
 
 /// One line for each engine and reason of runs that were not judged, as there may be many.
 std::string unjudgedText(const std::vector<StabilityRun>& runs, Verdict verdict, const char* word) {
-  std::map<std::pair<std::string, std::string>, int> count;
+  std::map<std::pair<std::string, std::string>, std::size_t> count;
   for (const StabilityRun& run : runs)
     if (run.verdict == verdict) ++count[{run.engine, run.reason}];
   std::string text;
   for (const auto& [what, times] : count)
-    text += fmt::format("{:<9} {:<16} {} run{}: {}\n", word, what.first, times,
-                        times == 1 ? "" : "s", what.second);
+    text +=
+        fmt::format("{:<9} {:<16} {}: {}\n", word, what.first, counted(times, "run"), what.second);
   return text;
 }
 

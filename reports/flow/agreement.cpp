@@ -69,12 +69,15 @@ std::string endpointLabel(const std::string& name, bool ofCell) {
   return symbol == spaced(name) ? symbol : endpointWords(name) + " " + symbol;
 }
 
-/// Where the axis of all bars ends: it holds all intervals, up to four margins.
-double reachOf(const Endpoints& rows) {
+/// Where the axis of a table's bars ends: it holds all intervals, up to four margins.
+double reachOf(const Table& table) {
   double most = 1.5;
-  for (const EndpointRow& row : rows)
-    for (const auto& end : {row.distance, row.distanceLow, row.distanceHigh})
-      most = std::max(most, 1.05 * std::abs(finite(end).value_or(0.0)));
+  for (const TableRow& row : table.rows)
+    for (const Cell& cell : row.cells)
+      if (cell.bar)
+        for (const double end :
+             {cell.bar->middle, cell.bar->low.value_or(0.0), cell.bar->high.value_or(0.0)})
+          most = std::max(most, 1.05 * std::abs(end));
   return std::min(most, 4.0);
 }
 
@@ -91,14 +94,12 @@ Table endpointVerdicts(const CompareResults& results, const std::string& a, cons
                "unit",
                numbers("margin"),
                "verdict"}};
-  Endpoints shown;
   for (const std::string& engine : engines) {
     std::string group = engine;
     for (const std::string& name : endpointsOf(endpoints)) {
       const EndpointRow* const found = rowOf(endpoints, a, engine, name);
       if (!found) continue;
       const EndpointRow& row = *found;
-      shown.push_back(row);
       const auto [value, reference] = readablePair(row.value(), row.reference);
       Cell bar({}, {}, verdictOf(results, row));
       if (const auto distance = finite(row.distance))
@@ -113,7 +114,7 @@ Table endpointVerdicts(const CompareResults& results, const std::string& a, cons
            std::exchange(group, "")});
     }
   }
-  table.reach = reachOf(shown);
+  table.reach = reachOf(table);
   return table;
 }
 

@@ -189,8 +189,8 @@ std::string moreRunsOfFiles(const EndpointRow& row, const Engines& engines) {
                      ofA ? a : b, why);
 }
 
-/// What can be done about values that are beyond margins. One law for both helps where causes do
-/// not show that they have it; what misses a closed form may be its step or its iterations.
+/// Advice on values that are beyond margins. One law for both helps where causes do not show that
+/// they have it; a closed form may be missed by the step or the iterations.
 std::string afterDisagreement(const CompareResults& results) {
   const bool withClosedForms = !closedFormEngines(results.endpoints.rows).empty();
   const bool oneLaw =

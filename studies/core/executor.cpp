@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "support/numbers.hpp"
 #include "support/terminal.hpp"
 
 namespace crossgrain::inline studies {
@@ -89,8 +90,7 @@ void Progress::showKept() {
   erase();
   std::string text;
   for (const auto& [noun, count] : kept_)
-    text +=
-        fmt::format("{}{} {}{}", text.empty() ? "" : " and ", count, noun, count == 1 ? "" : "s");
+    text += (text.empty() ? "" : " and ") + counted(count, noun);
   if (!quiet_ && !text.empty()) show("{} kept\n", text);
   kept_.clear();
 }

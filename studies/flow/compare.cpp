@@ -21,6 +21,7 @@
 #include "studies/flow/lockstep_job.hpp"
 #include "studies/flow/notes.hpp"
 #include "studies/lockstep/rules.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -66,8 +67,8 @@ std::optional<NothingJudged> nothingJudged(const Case& setup, std::span<const En
   };
   if (std::ranges::any_of(rows, single))
     return NothingJudged{"a single run of each has no error of its own: too short, or at rest"};
-  return NothingJudged{fmt::format("{} packing{} of each engine, and a verdict needs at least {}",
-                                   most, most == 1 ? "" : "s", fewest)};
+  return NothingJudged{fmt::format("{} of each engine, and a verdict needs at least {}",
+                                   counted(static_cast<std::size_t>(most), "packing"), fewest)};
 }
 
 namespace {

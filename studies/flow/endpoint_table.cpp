@@ -416,9 +416,9 @@ std::vector<EndpointRow> closedFormRows(const Case& setup, std::span<const FlowR
   for (const Endpoint& endpoint : setup.endpoints) {
     const auto add = [&](const ComparedPair& pair, const RepeatedValue& first) {
       rows.push_back(emptyRow(pair, endpoint, setup.averaging.endpoints.at(endpoint.name)));
-      for (const auto& [engine, without] :
-           {std::pair(pair.others.empty() ? pair.a : pair.b, std::string()),
-            {pair.b, pair.without}})
+      std::vector<std::pair<std::string, std::string>> both = {{pair.b, pair.without}};
+      if (pair.others.empty()) both.insert(both.begin(), {pair.a, ""});
+      for (const auto& [engine, without] : both)
         if (const AbleRuns able = ableRuns(endpoint, setup, finishedRuns(runs, engine, without));
             able.runs.empty() && !able.lack.empty()) {
           rows.back().verdict = Verdict::notMeasured;

@@ -33,7 +33,7 @@ TEST(Numbers, Error_HasTwoDigitsAndTheValueStopsWithThem) {
   EXPECT_EQ(readable(0.018378, 2.04e-10), "0.0183780\u00a0±\u00a02.0×10⁻¹⁰");
   EXPECT_EQ(readable(0.018378, 4.2e-7), "0.0183780\u00a0±\u00a04.2×10⁻⁷");
   EXPECT_EQ(readable(-3.2e-7, 1.1e-18), "−3.20000×10⁻⁷\u00a0±\u00a01.1×10⁻¹⁸");
-  // What rounding leaves of the same number twice is no error.
+  // Rounding of the same number twice is no error.
   EXPECT_EQ(readable(0.6891667, 5.7e-17), "0.689");
   EXPECT_EQ(readable(123456.0, 0.012), "123\u202f456\u00a0±\u00a00.012");
   EXPECT_EQ(readable(1e-12, 0.5), "0.00\u00a0±\u00a00.50");
