@@ -5,6 +5,7 @@
 #   share/crossgrain/python        crossgrain.py reads results and snapshots
 #   share/…                        completion in bash, zsh and fish, where each looks for it
 #   share/man                      what --help says
+#   share/doc/crossgrain           the documents; html/index.html where Sphinx is
 #   lib, include/crossgrain        the libraries, for find_package(crossgrain)
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -73,6 +74,17 @@ if(HELP2MAN)
             --name "compare granular and rigid-body engines on one scene" $<TARGET_FILE:crossgrain>)
   add_custom_target(manual ALL DEPENDS ${manual})
   install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endif()
+
+# The documents as pages that can be searched without a network; without Sphinx they are Markdown alone.
+find_program(SPHINX_BUILD sphinx-build)
+if(SPHINX_BUILD)
+  set(site ${CMAKE_CURRENT_BINARY_DIR}/site)
+  file(GLOB crossgrain_documents CONFIGURE_DEPENDS docs/*.md docs/*.png docs/pictures/* *.md)
+  add_custom_command(OUTPUT ${site}/index.html DEPENDS ${crossgrain_documents} ${crossgrain_pages} docs/conf.py
+    COMMAND ${SPHINX_BUILD} -q -c docs . ${site} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+  add_custom_target(site ALL DEPENDS ${site}/index.html)
+  install(DIRECTORY ${site}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html PATTERN .doctrees EXCLUDE PATTERN .buildinfo EXCLUDE)
 endif()
 
 # Removes what the last installation of this build folder has put there; folders stay.

@@ -122,6 +122,17 @@ class LaidOut(InstalledTest):
         for command in ("compare", "collide", "stability", "cost"):
             self.assertIn(command, page)
 
+    def test_site_has_every_page_and_its_words(self):
+        site = next(self.prefix.glob("share/doc/*/html"))
+        index = (SOURCES / "docs/README.md").read_text(encoding="utf-8")
+        sidebar = (site / "docs/README.html").read_text(encoding="utf-8").partition('class="sidebar-tree"')[2].partition("<article")[0]
+        for page in re.findall(r"\]\((\w[\w/.-]*)\.md\)", index):
+            self.assertTrue((site / "docs" / f"{page}.html").exists(), page)
+            self.assertIn(f"{page}.html", sidebar)
+        self.assertIn('"docs/quickstart"', (site / "searchindex.js").read_text(encoding="utf-8"))
+        self.assertIn("docs/README.html", (site / "index.html").read_text(encoding="utf-8"))
+        call("sphinx-build", "-q", "-W", "-c", SOURCES / "docs", SOURCES, self.folder / "site")  # a link without target is an error
+
     def test_uninstall_leaves_no_file(self):
         made, manifest = self.folder / "made", self.folder / "install_manifest.txt"
         call("cmake", "--install", BUILD, "--prefix", made)
