@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes the table of docs/commands.md from the program's own help: docs/commands.py PROGRAM
 
-A row is a command with its arguments and required options, what it does, and its other options.
+A row is a command with its arguments and required options, what it does, and its other options but for those that the
+page lists as common.
 """
 
 import os
@@ -11,7 +12,8 @@ import subprocess
 import sys
 
 PAGE = pathlib.Path(__file__).with_name("commands.md")
-HEAD = "| command | does | options |\n|---|---|---|\n"
+HEAD = "| command | does | options of its own |\n|---|---|---|\n"
+COMMON = {"--help", "--engine", "--set", "--fresh", "--json", "--verbose", "--quiet", "--dry-run", "--resume", "--jobs"}
 
 
 def help_of(program, *command):
@@ -29,7 +31,7 @@ def row_of(program, command):
     usage = re.search(r"(?m)^Usage: crossgrain (.*)$", text).group(1).replace(" [OPTIONS]", "")
     options = re.findall(r"(?m)^  (?:-\w,)?(--[\w-]+|-\w(?= ))(?: ([^\s'=]+\S*))?(?:(?: \.\.\.)? (REQUIRED))?", text)
     usage += "".join(f" {name} {value}" for name, value, required in options if required)
-    others = ", ".join(f"`{name}`" for name, value, required in options if not required and name != "--help")
+    others = ", ".join(f"`{name}`" for name, value, required in options if not required and name not in COMMON)
     cells = [f"`{usage}`", text.splitlines()[0], others]
     return "| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |\n"
 
