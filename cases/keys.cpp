@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <map>
 
 #include "cases/loader_sections.hpp"
 
@@ -21,6 +22,33 @@ std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
     text.insert(at, 1, '\\');
   return text;
+}
+
+/// The section that gives a meaning first, by the meaning.
+using FirstPlaces = std::map<std::string, std::string>;
+
+/// The rows of a section's table. A long meaning is given once, then by its section; neighbours of
+/// one default and meaning share a row, without unit and values where these differ.
+std::vector<KeyInfo> rowsOf(const SectionInfo& section, const std::string& name,
+                            FirstPlaces& places) {
+  constexpr std::size_t longMeaning = 60;
+  std::vector<KeyInfo> rows;
+  for (KeyInfo key : section.keys) {
+    if (key.meaning.size() > longMeaning) {
+      const auto [first, isNew] = places.try_emplace(key.meaning, name);
+      if (!isNew) key.meaning = "as in " + first->second;
+    }
+    const bool joins = !rows.empty() && !key.meaning.empty() &&
+                       rows.back().meaning == key.meaning && rows.back().standard == key.standard;
+    if (!joins) {
+      rows.push_back(key);
+      continue;
+    }
+    rows.back().name += "`, `" + key.name;
+    if (rows.back().unit != key.unit) rows.back().unit.clear();
+    if (rows.back().values != key.values) rows.back().values.clear();
+  }
+  return rows;
 }
 
 }  // namespace
@@ -124,15 +152,17 @@ std::string keysInMarkdown() {
   std::string page =
       "## Keys\n\"required\" has no default. A key that is not listed does not exist. `crossgrain "
       "list keys` prints these tables.\n\n";
+  FirstPlaces places;
   for (const SectionInfo& section : caseSections()) {
-    page += fmt::format("### `{}{}{}`{}\n", section.isList ? "[[" : "[", section.name,
-                        section.isList ? "]]" : "]",
-                        section.kinds.empty() ? "" : " (" + section.kinds + ")");
+    const std::string name = fmt::format("`{}{}{}`", section.isList ? "[[" : "[", section.name,
+                                         section.isList ? "]]" : "]");
+    page +=
+        fmt::format("### {}{}\n", name, section.kinds.empty() ? "" : " (" + section.kinds + ")");
     if (!section.note.empty()) page += section.note + "\n";
     page += "\n| key | unit | default | values | meaning |\n|---|---|---|---|---|\n";
-    for (const KeyInfo& key : section.keys)
-      page += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, key.unit, cell(key.standard),
-                          cell(key.values), cell(key.meaning));
+    for (const KeyInfo& row : rowsOf(section, name, places))
+      page += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.name, row.unit, cell(row.standard),
+                          cell(row.values), cell(row.meaning));
     page += '\n';
   }
   page.pop_back();

@@ -361,7 +361,7 @@ SectionInfo pairSection() {
   for (KeyInfo key : lawKeys().info().keys) {
     if (isOption(key.name)) continue;
     key.standard = "that of `[law]`";
-    key.meaning = "as there";
+    key.meaning = "as in `[law]`";
     info.keys.push_back(key);
   }
   return info;

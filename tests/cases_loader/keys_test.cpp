@@ -23,6 +23,18 @@ TEST_F(Keys, Page_IsWhatListKeysPrints) {
   EXPECT_EQ(text.substr(text.find("## Keys")), keysInMarkdown());
 }
 
+TEST_F(Keys, Page_NamesEveryKeyInItsSection) {
+  const std::string page = keysInMarkdown();
+  for (const SectionInfo& section : caseSections()) {
+    const auto from = page.find((section.isList ? "\n### `[[" : "\n### `[") + section.name + "]");
+    ASSERT_NE(from, std::string::npos) << section.name;
+    const std::string table = page.substr(from, page.find("\n### ", from + 1) - from);
+    for (const KeyInfo& key : section.keys)
+      EXPECT_NE(table.find("`" + key.name + "`"), std::string::npos)
+          << section.name << ' ' << key.name;
+  }
+}
+
 TEST_F(Keys, EveryKey_IsListedOnceWithADefault) {
   std::set<std::string> seen;
   for (const SectionInfo& section : caseSections())
