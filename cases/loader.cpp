@@ -42,11 +42,11 @@ const Section<Header>& headerKeys() {
                        [](Reader& in, const std::string& key, Header& header) {
                          in.read(key, header.dimension, between(2, 3));
                        }),
-       special<Header>({"extends", "", "–", "",
-                        "another case file, relative to this one; a name in `cases/` that does not "
-                        "exist there is that of a case that came with the program"},
-                       // readCaseDocuments() takes it
-                       [](Reader&, const std::string&, Header&) {})});
+       special<Header>(
+           {"extends", "", "–", "",
+            "another case file, relative to this one; else one of the installed cases, `cases/…`"},
+           // readCaseDocuments() takes it
+           [](Reader&, const std::string&, Header&) {})});
   return section;
 }
 
@@ -412,11 +412,9 @@ std::string kindOf(const Case& setup) {
 std::vector<SectionInfo> headerSections() {
   return {headerKeys().info(),
           {.name = "variants",
-           .note = "Each is run: the case with these changes. Sections and keys as below, and",
+           .note = "The case is run with each of these changes. Sections and keys as below, and",
            .isList = true,
-           .keys = {{"name", "", "required", "",
-                     "of the variant, as `case.name`; no two are "
-                     "alike"}}}};
+           .keys = {{"name", "", "required", "", "unique name of the variant, as `case.name`"}}}};
 }
 
 std::vector<Case> loadCase(const std::filesystem::path& file,

@@ -105,21 +105,18 @@ struct Arrangement {
 };
 constexpr Arrangement arrangements[] = {
     {"grid",
-     "`{ columns, rows, spacing = 1, triangular = false }`: to the right and upward, spacing in "
-     "diameters of a disk, as in all arrangements. In space also "
-     "`layers = 1`, and `axes = \"xyz\"` says along which axes columns, rows and layers are; "
-     "triangular layers lie in the hollows of the ones below (close-packed)",
+     "`{ columns, rows, spacing = 1, triangular = false }`: to the right and upward. In space also "
+     "`layers = 1` and `axes = \"xyz\"`, the axes of columns, rows and layers; triangular layers "
+     "are close-packed",
      true},
     {"stack", "`{ count, spacing = 1 }`: upward", false},
     {"chain", "`{ count, spacing = 1 }`: to the right", true},
     {"heap", "`{ base, spacing = 1 }`: a triangle of rows of base, base − 1, … disks", false},
     {"line", "`{ count, step }`: each off by step, [x, y] in diameters, from the one before", true},
     {"circles",
-     "in space: `{ inner = 0, outer, spacing = 1, layers = 1, rise = spacing, axis = \"z\" }`: on "
-     "circles about `position`, of radii inner, inner + spacing … up to outer, all in diameters, "
-     "as "
-     "many on each as fit; layers along the axis. A bottom with an orifice, or what fills a "
-     "cylinder",
+     "in space: `{ inner = 0, outer, spacing = 1, layers = 1, rise = spacing, axis = \"z\" }`: "
+     "full circles about `position`, radii inner, inner + spacing … up to outer; layers along the "
+     "axis. For a bottom with an orifice, or a filled cylinder",
      true}};
 
 /// Adds the keys of arrangements, of which one may be given.
@@ -164,33 +161,30 @@ const Section<DisksInput<D>>& disksKeys() {
       {.name = "assembly.disks",
        .kinds = "assembly",
        .note =
-           "One or more, unless the disks come from a file. In space, of spheres: vectors have "
-           "three numbers, `spin` too. With `shape`, of convex bodies, whose `position` is that "
-           "of their centre of mass.",
+           "One or more, unless the disks come from a file. In space spheres: vectors and `spin` "
+           "have three numbers. With `shape` convex bodies: `position` is the centre of mass.",
        .isList = true},
       withArrangements<D, I>(
           {need("position", &I::position, anyNumber("m"), "[x, y] of the (first) disk"),
            key("radius", &I::radius, positive("m"), "").listed("required without `shape`"),
-           special<I>(
-               {"shape", "m", "–", "a table",
-                "a convex body in place of a disk or sphere, one of: `{ polygon = [[x, y], "
-                "…], rounding = 0 }`, counter-clockwise about any origin; `{ sides, radius }`, "
-                "a regular polygon on its side; `{ box = [a, b] }`, in space `[a, b, c]`; "
-                "`{ capsule = [length, radius] }`, along x, in space along z; in space also "
-                "`{ cylinder = [length, radius] }`, along z, and `{ polyhedron = [[x, y, z], "
-                "…] }`, its corners"},
-               [](Reader& in, const std::string& name, I& group) {
-                 if (in.has(name))
-                   group.shape = readShape<D>(in.section(name));
-                 else
-                   in.take(name);
-               }),
+           special<I>({"shape", "m", "–", "a table",
+                       "a convex body, one of: `{ polygon = [[x, y], …], rounding = 0 }`, "
+                       "counter-clockwise about any origin; `{ sides, radius }`, a regular polygon "
+                       "on its side; `{ box = [a, b] }`, in space `[a, b, c]`; `{ capsule = "
+                       "[length, radius] }`, along x, in space along z; in space also `{ cylinder "
+                       "= [length, radius] }`, along z, and `{ polyhedron = [[x, y, z], …] }`"},
+                      [](Reader& in, const std::string& name, I& group) {
+                        if (in.has(name))
+                          group.shape = readShape<D>(in.section(name));
+                        else
+                          in.take(name);
+                      }),
            key("angle", &I::angle, between(-360.0, 360.0, "degrees"),
                "of a convex body in the plane, counter-clockwise"),
            key("quaternion", &I::quaternion, Range{},
-               "[w, x, y, z] of length 1, of a convex body in space: from its frame to the scene's")
+               "[w, x, y, z] of length 1: from a convex body's frame to the scene's")
                .listed("[1, 0, 0, 0]"),
-           key("random_turn", &I::randomTurn, any, "any orientation, each as likely"),
+           key("random_turn", &I::randomTurn, any, "uniformly random orientation"),
            key("inertia", &I::inertia, positive("kg m^2"),
                "of a convex body about its centre of mass; in space [J_x, J_y, J_z] about its "
                "principal axes")
@@ -200,12 +194,12 @@ const Section<DisksInput<D>>& disksKeys() {
            key("velocity", &I::velocity, anyNumber("m/s"), ""),
            key("spin", &I::spin, anyNumber("rad/s"), ""),
            key("choose", &I::choose, between(1, mostDisks),
-               "so many of the places, drawn by chance: other ones in each packing")
+               "number of places, drawn at random in each packing")
                .listed("all"),
            key("jitter", &I::jitter, atLeast(0.0, "diameters"),
-               "each coordinate is off by up to this"),
+               "largest random shift of each coordinate"),
            key("radius_spread", &I::radiusSpread, between(0.0, 0.9),
-               "radii are off by up to this share, masses as their square (in space their cube)"),
+               "radii vary by up to this share, masses as their square (in space cube)"),
            key("velocity_rms", &I::velocityRms, atLeast(0.0, "m/s"),
                "normally distributed, added to `velocity`"),
            keyOf<I>(
@@ -278,18 +272,16 @@ const Section<WallsInput<D>>& wallsKeys() {
         key("normal", &PlaneOf<D>::normal, Range{}, "of a plane; it points to the free side")
             .listed("–"),
         key("box", &I::box, anyNumber("m"),
-            "[left, bottom, right, top]: four planes around a room; in space the lower corner and "
-            "the upper one, six planes"),
-        special<I>(
-            {"cylinder", "", "–", "a table",
-             "in space: `{ point = [0, 0, 0], axis, radius, omega = 0 }`: hollow and without "
-             "ends, spheres inside, through a point [m], along a direction, of a radius [m]. "
-             "With its other members it stands still, or turns about the axis at omega "
-             "[rad/s]"},
-            [](Reader& in, const std::string& name, I& wall) {
-              if (!in.has(name)) return static_cast<void>(in.take(name));
-              if constexpr (D == 3) readCylinder(in.section(name), wall);
-            }),
+            "[left, bottom, right, top]: four planes around a room; in space lower and upper "
+            "corner, six planes"),
+        special<I>({"cylinder", "", "–", "a table",
+                    "in space: `{ point = [0, 0, 0], axis, radius, omega = 0 }`: hollow, without "
+                    "ends, spheres inside; point and radius in m. It and its other members turn "
+                    "about the axis at omega [rad/s]"},
+                   [](Reader& in, const std::string& name, I& wall) {
+                     if (!in.has(name)) return static_cast<void>(in.take(name));
+                     if constexpr (D == 3) readCylinder(in.section(name), wall);
+                   }),
         key("position", &I::first, anyNumber("m"), "[x, y] of the (first) wall disk").listed("–"),
         key("radius", &I::radius, positive("m"), "of wall disks").listed("–"),
         key("velocity", &Moved::velocity, anyNumber("m/s"), "it travels").listed("–"),
@@ -300,7 +292,7 @@ const Section<WallsInput<D>>& wallsKeys() {
             .listed("with `amplitude`")};
     if constexpr (D == 2) {
       keys.push_back(key("omega", &Moved::angularVelocity, anyNumber("rad/s"),
-                         "or it turns about a centre; of the plane alone")
+                         "or it turns about a centre; in the plane only")
                          .listed("–"));
       keys.push_back(key("centre", &I::centre, anyNumber("m"), "of that"));
     }
@@ -394,11 +386,11 @@ const Section<AssemblyOf<D>>& assemblyKeys() {
             "as in `[particles]`; in space 0.4"),
         key("rotation", &A::rotation, any, "as in `[particles]`"),
         key("seed", &A::seed, between(0, mostSeed),
-            "of all that is random; `[preparation] seed` takes precedence")};
+            "of all random numbers; `[preparation] seed` takes precedence")};
     if constexpr (D == 2) {
       keys.push_back(keyOf<A>(
           "mirror", [](A& a) -> bool& { return a.placement.mirror; }, any,
-          "the whole scene mirrored at the y axis; this and what follows of the plane alone"));
+          "the scene is mirrored at the y axis; this and the next three in the plane only"));
       keys.push_back(special<A>({"rotate", "degrees", "0", "", "then turned about the origin"},
                                 [](Reader& in, const std::string& key, A& a) {
                                   double degrees = 0.0;
@@ -410,15 +402,14 @@ const Section<AssemblyOf<D>>& assemblyKeys() {
           "then shifted"));
       keys.push_back(keyOf<A>(
           "boost", [](A& a) -> Vec2& { return a.placement.boost; }, anyNumber("m/s"),
-          "then with a velocity added to all, walls too"));
+          "then this velocity is added to all, walls too"));
     }
-    return Section<A>(
-        {.name = "assembly",
-         .kinds = "assembly",
-         .note = "Disks, or spheres where `case.dimension` is 3, and walls put together from a few "
-                 "arrangements, for `crossgrain stability`, or, with `[average]`, for `crossgrain "
-                 "compare` and `lockstep`. With `dt` given a linear contact may be overdamped."},
-        std::move(keys));
+    return Section<A>({.name = "assembly",
+                       .kinds = "assembly",
+                       .note = "Disks, or spheres with `case.dimension = 3`, and walls, for "
+                               "`crossgrain stability` or, with `[average]`, `compare` and "
+                               "`lockstep`. With `dt` given a linear contact may be overdamped."},
+                      std::move(keys));
   }();
   return section;
 }

@@ -36,10 +36,9 @@ const Section<AverageInput>& averageKeys() {
       {.name = "average",
        .kinds = "assembly",
        .commands = "compare plan lockstep identify baseline effects cost average",
-       .note =
-           "What `compare` averages: bins in a part of the plane, or of space, that stays where "
-           "it is while walls move. With it an assembly runs as long as it says, from each of "
-           "`preparation.packings` packings."},
+       .note = "Bins that `compare` averages over, in a part of the plane or of space that does "
+               "not move with walls. Each of `preparation.packings` packings runs for "
+               "`assembly.duration`."},
       {need(
            "bins", &A::bins, Names(binKindNames.begin(), binKindNames.end()),
            "fields of rings (about the origin, in space about the z axis) have directions r and φ, "
@@ -66,11 +65,9 @@ const Section<AverageInput>& averageKeys() {
            "h of the disks, normal to the plane; spheres have none"),
        need("from", &A::from, atLeast(0.0, "s"), "what comes before is not averaged"),
        key("snapshots", &A::snapshots, between(1, 1'000'000),
-           "evenly from there to the end, a time step or more apart"),
+           "evenly spread from `from` to the end, a time step or more apart"),
        key("method", &A::methods, allWeightNames(),
-           "as in `[averaging]`; in space slicing, centre or, of slabs, the coarse-graining "
-           "functions "
-           "heaviside, lucy and gauss"),
+           "as in `[averaging]`; in space slicing, centre or, for slabs, heaviside, lucy, gauss"),
        key("line_width", &A::lineWidth,
            Range{.low = 0.0, .high = 1000.0, .lowOpen = true, .unit = "d"},
            "as in `[averaging]`, of the smallest disks"),
@@ -209,8 +206,8 @@ std::vector<SectionInfo> averageSections() {
   return {averageKeys().info(),
           marginSection({.name = "average.margins",
                          .kinds = "assembly",
-                         .note = "How far apart two engines may be in a bin, for its colour; the "
-                                 "verdicts are the endpoints'."},
+                         .note = "Largest difference of two engines in a bin, for its colour. "
+                                 "Endpoints decide verdicts."},
                         "FIELD", "a field of `profiles.csv`", "of the reference's mean", false),
           endpointsSection()};
 }

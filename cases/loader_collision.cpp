@@ -67,19 +67,21 @@ const Section<Collision>& collisionKeys() {
            "instead of `vn`: √(v_n² + v_t²), the same for every Ψ_i")
            .listed("–"),
        key("approach", &Collision::approach, Names{"spin", "first_spin", "oblique"},
-           "what gives v_t: both disks' spins, the first one's, or the centres' velocities"),
+           "v_t comes from both disks' spins (centres head on), the first one's, or the centres' "
+           "velocities"),
        key("counter_spin", &Collision::counterSpin, anyNumber("rad/s"),
-           "a list: added to the first spin, a_i/a_j of it taken from the second: v_t stays"),
+           "a list: added to the first spin; a_i/a_j of it subtracted from the second, so that v_t "
+           "stays"),
        special<Collision>({"second", "", "\"disk\"", "disk, wall, body",
-                           "`wall`: the second body is a plane wall of infinite mass; `body`: a "
-                           "convex one, with a face towards the first, of which a corner meets it"},
+                           "`wall`: a plane of infinite mass; `body`: a convex body, a face of "
+                           "which meets a corner of the first"},
                           [](Reader& in, const std::string& key, Collision& c) {
                             std::string second = "disk";
                             in.read(key, second, Names{"disk", "wall", "body"});
                             c.wall = second == "wall";
                           }),
        special<Collision>({"wall_velocity", "m/s", "[0, 0]", "",
-                           "along its normal and along itself; the relative motion stays"},
+                           "along its normal and along the wall; the relative motion stays"},
                           [](Reader& in, const std::string& key, Collision& c) {
                             std::vector<double> velocity(2);
                             in.read(key, velocity, anyNumber());
@@ -87,8 +89,7 @@ const Section<Collision>& collisionKeys() {
                                      "must be [along its normal, along it] in m/s");
                             c.wallVelocity = {velocity[0], velocity[1]};
                           }),
-       key("radius", &Collision::radius, positive("m"),
-           "one number for both disks, or `[a, b]`; with a wall the disk's")
+       key("radius", &Collision::radius, positive("m"), "one number for both disks, or `[a, b]`")
            .listed("required without `shape`")
            .usedBy(users),
        need("mass", &Collision::mass, positive("kg"), "likewise").usedBy(users),
@@ -108,32 +109,31 @@ const Section<Collision>& collisionKeys() {
            .usedBy(users),
        keyOf<Collision>(
            "first_spin", [](auto& c) -> auto& { return c.spinOutOfPlane[0]; }, anyNumber("rad/s"),
-           "in space, spin that the first body has besides: about the line of centres n, and about "
-           "the tangent s"),
+           "in space, additional spin of the first body about the line of centres n and the "
+           "tangent s"),
        keyOf<Collision>(
            "second_spin", [](auto& c) -> auto& { return c.spinOutOfPlane[1]; }, anyNumber("rad/s"),
            "the same of the second"),
-       special<Collision>({"turn", "degrees", "[0, 0, 0]", "",
-                           "in space, the scene is turned about this axis by its length: n, s and "
-                           "n × s are along x, y and z before"},
-                          [](Reader& in, const std::string& key, Collision& c) {
-                            std::vector<double> degrees(3);
-                            in.read(key, degrees, anyNumber());
-                            in.check(degrees.size() == 3, key, "must be [x, y, z] in degrees");
-                            c.turn = Vec3::Map(degrees.data()) * (std::numbers::pi / 180.0);
-                          }),
+       special<Collision>(
+           {"turn", "degrees", "[0, 0, 0]", "",
+            "in space, rotation vector of the scene; before, n, s and n × s are along x, y and z"},
+           [](Reader& in, const std::string& key, Collision& c) {
+             std::vector<double> degrees(3);
+             in.read(key, degrees, anyNumber());
+             in.check(degrees.size() == 3, key, "must be [x, y, z] in degrees");
+             c.turn = Vec3::Map(degrees.data()) * (std::numbers::pi / 180.0);
+           }),
        later(
            "shape", "m", "–", "a table",
            "a convex body, as under `[[assembly.disks]]`, in place of the first disk of `radius`"),
        later("second_shape", "m", "`shape`", "a table", "of `second = \"body\"`"),
        later("second_radius", "m", "–", "> 0", "of a disk, or sphere, that a convex body meets"),
        later("offset", "m", "0", "",
-             "from the middle of the second body's face to where the corner meets it, along s; in "
-             "space [along s, along n × s]"),
+             "of the corner from the middle of the second body's face, along s; in space [along s, "
+             "along n × s]"),
        special<Collision>({"orientation", "degrees", "0", "[-360, 360]",
                            "of the convex body at the touch, counter-clockwise, a sweep like "
-                           "`psi`; at 0 its x axis "
-                           "is along n, the normal towards it, and its y axis along s"},
+                           "`psi`; at 0 its axes x, y are along n (towards it), s"},
                           [](Reader& in, const std::string& key, Collision& c) {
                             if (!in.has(key)) return static_cast<void>(in.take(key));
                             c.orientation.clear();
@@ -145,7 +145,7 @@ const Section<Collision>& collisionKeys() {
              "in space, as under `[[assembly.disks]]`: the orientation at `orientation = 0`"),
        special<Collision>({"spin", "rad/s", "0", "",
                            "of the convex body at the touch, about n × s, a sweep like `psi`; the "
-                           "centre's velocity makes v_n and Ψ_i what they are"},
+                           "centre's velocity is set so that v_n and Ψ_i hold"},
                           [](Reader& in, const std::string& key, Collision& c) {
                             if (!in.has(key)) return static_cast<void>(in.take(key));
                             c.spin.clear();
@@ -158,7 +158,7 @@ const Section<Collision>& collisionKeys() {
                  .high = 1.0,
                  .highOpen = true,
                  .reason = ": from 0 on, else the two overlap at the start"},
-           "the two touch this fraction of a step after a step")});
+           "the bodies touch this fraction of a step after a step")});
   return section;
 }
 
@@ -307,12 +307,12 @@ void checkConvexStarts(const Reader& in, const Case& c) {
 
 std::vector<SectionInfo> collisionSections() {
   return {collisionKeys().info(),
-          marginSection(
-              {.name = "collision.margins",
-               .kinds = "collision",
-               .commands = "collide",
-               .note = "Without any margin nothing is judged, and `collide` exits with 1."},
-              "QUANTITY", "how far from the oracle it may be", "of the oracle's curve", false)};
+          marginSection({.name = "collision.margins",
+                         .kinds = "collision",
+                         .commands = "collide",
+                         .note = "Without margins nothing is judged and `collide` exits with 1."},
+                        "QUANTITY", "how far from the oracle it may be", "of the oracle's curve",
+                        false)};
 }
 
 void readCollision(Reader& in, Collision& c, int dimension) {

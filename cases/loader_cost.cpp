@@ -34,23 +34,22 @@ std::vector<Key<Cost>> costTable() {
       key("knobs", &Cost::knobs, Names(costKnobs.begin(), costKnobs.end()), "what is varied")
           .listed("all"),
       key("disks", &Cost::disks, between(1, 20'000'000),
-          "sizes of the scene, a step of which is timed; a scene that cannot be made larger says "
-          "why")
+          "numbers of disks for timing a step; a scene that cannot grow reports why")
           .listed("its own, and four times it", "–"),
       key("threads", &Cost::threads, between(1, 1024),
-          "threads, or ranks of an engine that has them, that share a step; one is always timed")
+          "threads, or ranks, that share a step; one is always timed")
           .listed("1, 2, 4, … up to the cores", "–"),
       key("timed", &Cost::timed, positive("s"), "what is shorter is not called measured"),
       key("repeats", &Cost::repeats, between(2, 1000),
-          "rounds in which settings take turns; their scatter is the interval of a time"),
+          "rounds over all settings; their scatter gives the interval of a time"),
       key("collision_steps", &Cost::collisionSteps, steps, "steps of two bodies that collide"),
       key("speed", &Cost::speed, positive("m/s"),
-          "their v_n in place of those of a run of the scene: median and, of laws whose collisions "
-          "depend on the speed, 95th percentile of each kind of pair"),
+          "their v_n; default from a run of the scene: median and, if the law depends on the "
+          "speed, 95th percentile of each kind of pair"),
       key("psi_max", &Cost::psiMax, positive(), "their Ψ_i go from 0 to this"),
       key("psi_count", &Cost::psiCount, between(2, 10'000), "number of their Ψ_i"),
       key("collision_reference", &Cost::collisionReference, steps,
-          "steps of an engine's own limit of small steps, where its law has no oracle"),
+          "steps of an engine's own reference, where its law has no oracle"),
       key("trajectory_steps", &Cost::trajectorySteps, steps, "steps of a packing's path"),
       key("trajectory_reference", &Cost::trajectoryReference, steps, "steps of its reference"),
       key("window_most", &Cost::windowMost, positive("t_c"), "longest window"),
@@ -58,13 +57,12 @@ std::vector<Key<Cost>> costTable() {
           "so many of the case's, from the first"),
       key("average_steps", &Cost::averageSteps, steps,
           "steps of averages over whole runs of all packings"),
-      key("average_reference", &Cost::averageReference, steps,
-          "steps of the ensemble that they are compared with"),
+      key("average_reference", &Cost::averageReference, steps, "steps of the reference ensemble"),
       key("rigid_steps", &Cost::rigidSteps, between(1e-3, 1000),
-          "steps of rigid bodies in the case's own step: 0.5 is twice that, 2 is half of it"),
+          "rigid bodies: steps per step of the case: 0.5 doubles the step, 2 halves it"),
       key("iterations", &Cost::iterations, between(1e-3, 1000),
-          "of rigid bodies: what engines declare as iterations, in units of the number that they "
-          "run with; at every step that makes them no more than the largest of both lists"),
+          "rigid bodies: factors on the engines' own iterations, at every step where the product "
+          "of both factors is at most the largest of both lists"),
       key("tangential", &Cost::tangential,
           Names{"none", "coulomb", "viscous", "spring", "spring_dashpot"},
           "laws in place of the case's")};
@@ -75,10 +73,10 @@ const Section<Cost>& costKeys() {
       {.name = "cost",
        .kinds = "couette, assembly",
        .commands = "cost",
-       .note = "Steps are numbers of steps in the contact time t_c of the lightest pair; of a law "
-               "that stiffens, of its fastest impact here (without its dashpot). Rigid bodies have "
-               "no contact time: of them endpoints with `expected` are judged, in units of their "
-               "margins, and steps are parts of the case's own. Lists may be empty."},
+       .note = "Steps are counted per contact time t_c of the lightest pair; for a law that "
+               "stiffens, of the fastest impact without its dashpot. Rigid bodies have no contact "
+               "time: steps are parts of the case's own, and endpoints with `expected` are judged "
+               "in units of their margins. Lists may be empty."},
       costTable());
   return section;
 }

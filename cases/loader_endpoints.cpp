@@ -26,37 +26,35 @@ const Section<EndpointInput>& endpointsKeys() {
       {.name = "endpoints",
        .kinds = "assembly",
        .commands = "compare plan effects cost average baseline",
-       .note = "The numbers of a run that carry verdicts, with `[average]`. One with a relative "
-               "margin is compared by its ratio to the reference, whose values need one sign; any "
-               "other by the difference.",
+       .note =
+           "Numbers of a run that decide verdicts, with `[average]`. A relative margin compares by "
+           "the ratio to the reference, whose values need one sign; others by the difference.",
        .isList = true},
       {need("name", &Endpoint::name, any, "as `case.name`; no two are alike"),
        need("quantity", &Endpoint::quantity, any,
             "a field of `profiles.csv`, or a quantity of `crossgrain list endpoints`"),
        key("disk", &Endpoint::disk, between(0, mostDisks),
-           "of which `quantity` is `x` …, `velocity_x` …, `spin` (in space `spin_x` …), of a "
-           "convex "
-           "body `angle` and, in space, `own_spin_x` …; from 0"),
+           "a disk, from 0, for `quantity` `x` …, `velocity_x` …, `spin` (in space `spin_x` …), of "
+           "a convex body `angle` and, in space, `own_spin_x` …"),
        key("wall", &Endpoint::wall, between(0, mostDisks),
-           "of `[[assembly.walls]]`, from 0, of which `quantity` is `normal_force`, `force_x` …: "
+           "one of `[[assembly.walls]]`, from 0, for `quantity` `normal_force`, `force_x` …: force "
            "of the disks on it"),
        key("plane", &Endpoint::plane, between(0, mostDisks),
-           "of that wall, from 0; of a `box`: left, bottom, right, top, in space the planes at its "
-           "lower corner across x, y and z, then those at its upper one"),
+           "of that wall, from 0; of a `box`: left, bottom, right, top; in space across x, y, z at "
+           "the lower corner, then at the upper one"),
        key("area", &Endpoint::area, positive("m^2"),
-           "the force on a wall is divided by it: a stress, in N/m²")
+           "divides the force on a wall: a stress, in N/m²")
            .listed("–"),
-       key("per", &Endpoint::per, any,
-           "another quantity of the same kind and unit, that it is divided by"),
+       key("per", &Endpoint::per, any, "divisor: another quantity of the same kind and unit"),
        special<E>(
-           {"at", "–", "\"mean\"", "", "what is made of the quantity: see Endpoints of assemblies"},
+           {"at", "–", "\"mean\"", "", "reduction of the quantity: see Endpoints of assemblies"},
            [](Reader& in, const std::string& key, E&) { in.take(key); }),
        key("time", &E::time, atLeast(0.0, "s"), "instead of `at`: the value at that time of a run")
            .listed("–"),
        key("reaches", &E::reaches, anyNumber(), "instead of `at`: when it first has this value")
            .listed("–", "the quantity's"),
        key("between", &E::part, atLeast(0.0, "s"),
-           "[from, to]: the part of a run that `at` or `reaches` sees")
+           "[from, to]: part of a run for `at` or `reaches`")
            .listed("all that is averaged"),
        key("expected", &Endpoint::expected, anyNumber(), "its value by a closed form")
            .listed("–", "the endpoint's"),

@@ -117,7 +117,7 @@ std::vector<Key<LawInput>> lawTable() {
           "the largest stiffness of unloading, > `kn`")
           .listed("required (elasto_plastic)"),
       key("plastic_depth", &ContactLaw::plasticDepth, atLeast(0.0),
-          "φ, at which share of 2 R₁₂ the overlap at zero force makes unloading that stiff; 0: "
+          "φ: overlap at zero force, as a share of 2 R₁₂, from which unloading is that stiff; 0: "
           "always")
           .listed("0")};
   keys.insert(keys.end(), std::begin(constants), std::end(constants));
@@ -353,9 +353,8 @@ bool isOption(const std::string& key) {
 SectionInfo pairSection() {
   SectionInfo info{.name = "law.pairs",
                    .note =
-                       "The law of two materials, for each two that differ from `[law]`: what "
-                       "it does not give is that of `[law]`, and so are all options and "
-                       "effects.",
+                       "Constants of two materials. Constants not given, all options and effects "
+                       "are those of `[law]`.",
                    .isList = true,
                    .keys = {{"between", "", "required", "", "the two, or twice the same"}}};
   for (KeyInfo key : lawKeys().info().keys) {

@@ -67,10 +67,10 @@ const Section<ParticlesInput>& particlesKeys() {
        need("small_radius", &P::smallRadius, positive("m"), "of a small disk"),
        need("large_radius", &P::largeRadius, positive("m"), "of a large disk, ≥ `small_radius`"),
        key("volume_fraction", &P::volumeFraction, inside(0.0, 1.0),
-           "instead of the numbers: ν̄, from which they are computed")
+           "instead of the numbers, which follow from it: ν̄")
            .listed("–"),
        key("large_number_share", &P::largeNumberShare, between(0.0, 1.0),
-           "which part of the disks are large, by number; 0 for none")
+           "share of large disks by number; 0 for none")
            .listed("with `volume_fraction`"),
        key("large_mass_share", &P::largeMassShare, between(0.0, 1.0), "likewise, by mass")
            .listed("or this"),
@@ -81,12 +81,11 @@ const Section<ParticlesInput>& particlesKeys() {
            .listed("–"),
        key("inertia_factor", &P::inertiaFactor, aboveZeroTo(1.0),
            "q in J = q m a²: 0.5 disk, 0.4 sphere"),
-       key("rotation", &P::rotation, any,
-           "false: friction acts, but no disk has a spin or gets one"),
+       key("rotation", &P::rotation, any, "false: friction acts, but no disk spins"),
        key("max_overlap", &P::maxOverlap, between(0.0, 1.0),
            "largest overlap of a start, in units of `small_radius`"),
        key("file", &P::file, ExistingFile{".h5"},
-           "a packing of your own, relative to this file; its numbers hold"),
+           "a packing of your own, relative to this file; its numbers of disks apply"),
        key("small_material", &P::smallMaterial, any, "of `[[law.pairs]]`"),
        key("large_material", &P::largeMaterial, any,
            "likewise; disks of a file are of the nearer radius")});
@@ -139,22 +138,22 @@ const Section<PreparationInput>& preparationKeys() {
       {.name = "preparation",
        .kinds = "couette, assembly",
        .commands = "compare plan lockstep identify baseline record effects cost stability",
-       .note = "Of an assembly with `[average]` only `packings` and `seed`."},
+       .note = "An assembly with `[average]` uses `packings` and `seed` only."},
       {key("engine", &P::engine, any,
-           "the engine that prepares packings, as `may_differ` and its settings let it")
+           "engine that prepares packings, within `may_differ` and its settings")
            .listed("the in-house one"),
        key("packings", &P::packings, between(1, 10'000),
-           "of `compare` at its first interim analysis; fewer than 4 give no general verdict")
+           "packings of the first interim analysis of `compare`; fewer than 4 give no general "
+           "verdict")
            .usedBy("compare plan lockstep baseline effects cost"),
        key("seed", &P::seed, between(0, mostSeed),
            "of initial places and velocities; packing k draws from its stream k"),
        key("dilation", &P::dilation, above(1.0), "R_prepare/R_o"),
        key("velocity", &P::velocity, atLeast(0.0, "m/s"), "rms of each component at the start"),
        key("shrink_time", &P::shrinkTime, positive("s"),
-           "in which the ring goes from R_prepare to R_o"),
+           "time in which the ring goes from R_prepare to R_o"),
        key("rotations", &P::rotations, atLeast(0.0), "of the wheel, after that"),
-       key("dt", &P::dt, positive("s"),
-           "time step of preparing: packings are then the same for any `run.dt`")
+       key("dt", &P::dt, positive("s"), "time step of preparation, independent of `run.dt`")
            .listed("that of the runs")});
   return section;
 }
@@ -192,9 +191,10 @@ const Section<InterimSettings>& looksKeys() {
        .note = "`compare` adds packings until every endpoint is decided, with an interim analysis "
                "after 1, 2, … times `preparation.packings` of them."},
       {key("count", &InterimSettings::count, between(1, 100),
-           "the most interim analyses; 1 where packings are files, or fewer than 4 at the first"),
+           "largest number of interim analyses; 1 where packings are files, or fewer than 4 at the "
+           "first"),
        key("budget", &InterimSettings::budget, positive("s"),
-           "no further one begins that would end later than this; `--budget` takes precedence")});
+           "none begins that would end later than this; `--budget` takes precedence")});
   return section;
 }
 
@@ -227,12 +227,12 @@ const Section<RunOptions>& runKeys() {
       {key("dt", &RunOptions::dt, positive("s"),
            "time step of every engine without `[engines.NAME] dt`; required for a rigid law"),
        key("steps_per_contact", &RunOptions::stepsPerContact, atLeast(2.0),
-           "else dt = t_c of the lightest pair / this (a collision has its own)"),
+           "without `dt`: dt = t_c of the lightest pair / this (a collision has its own)"),
        key("handover", &RunOptions::handover, Names{"cold", "warm"},
            "`cold` drops tangential and bottom springs; `warm` is not supported yet"),
        special<RunOptions>({"may_differ", "", "[]", valuesOf(deviationNames()),
-                            "what an engine may do otherwise or lack; each is noted beside its "
-                            "figures. `conventions`: all that are no law of their own"},
+                            "options and effects that engines may replace or lack; noted beside "
+                            "their figures. `conventions`: all that are no law of their own"},
                            [](Reader& in, const std::string& key, RunOptions& run) {
                              in.read(key, run.mayDiffer, deviationNames());
                              nameConventions(run.mayDiffer);
@@ -240,14 +240,13 @@ const Section<RunOptions>& runKeys() {
        key("precision", &RunOptions::precision, Names(precisionNames.begin(), precisionNames.end()),
            "`float`: of engines that have it"),
        key("timeout", &RunOptions::timeout, timeouts,
-           "longest wait for one answer of an engine; one that computes meanwhile gets as much "
-           "processor time again"),
+           "longest wait for an answer of an engine, doubled while it computes"),
        key("mirrors", &RunOptions::mirrors, any,
            "also run the in-house engine under each peer's conventions")
            .usedBy("compare plan collide"),
        key("energy_ledger", &RunOptions::energyLedger, any,
-           "energy term by term of engines that can: columns `energy_…` of `series.csv`, and the "
-           "field `dissipation`")
+           "energy by terms, where engines report them: columns `energy_…` of `series.csv`, and "
+           "the field `dissipation`")
            .usedBy("compare plan record stability effects cost"),
        key("keep_snapshots", &RunOptions::keepSnapshots, between(0, 1'000'000), "per run, in HDF5")
            .usedBy("compare plan effects cost"),
@@ -263,8 +262,7 @@ const Section<Stability>& stabilityKeys() {
   static const Section<Stability> section(
       {.name = "stability",
        .commands = "stability",
-       .note = "Makes a hard case of a case of any kind. `crossgrain list measures` has the "
-               "measures and their units."},
+       .note = "Makes a hard case of any case. Measures: [above](#measures-of-hard-cases)."},
       {need("tests", &Stability::tests, Sentence{"must say in a sentence what it tests"},
             "what it tests, in a sentence"),
        need("measure", &Stability::measure, measures, "what is measured"),
@@ -277,10 +275,10 @@ const Section<Stability>& stabilityKeys() {
        key("samples", &Stability::samples, between(1, 100'000),
            "snapshots of the run, evenly spread"),
        key("settle", &Stability::settle, Range{.low = 0.0, .high = 1.0, .highOpen = true},
-           "share of the run before rest is asked for"),
+           "share of the run before rest is required"),
        key("stands", &Stability::stands, any,
-           "all stands from the start: where a body moves by more than half a diameter before "
-           "`settle`, rest is asked for from the start"),
+           "all stands from the start: if a body moves by more than half a diameter before "
+           "`settle`, rest is required from the start"),
        key("quick", &Stability::quick, any, "part of `--quick`"),
        key("long", &Stability::longRun, any, "only under `--long`")});
   return section;
@@ -306,19 +304,19 @@ std::vector<SectionInfo> cellSections() {
           {.name = "averaging.endpoints",
            .kinds = "couette",
            .commands = "compare plan baseline",
-           .note = "How far apart two engines may be in an endpoint and still agree. These carry "
-                   "the verdicts of `compare`; an endpoint without a margin is not judged. "
-                   "`pressure` is compared by its ratio and takes `relative`, all others by their "
-                   "difference."},
+           .note = "Largest difference of two engines that agree. These margins decide the "
+                   "verdicts of `compare`; an endpoint without one is not judged. `pressure` is "
+                   "compared by its ratio and takes `relative`, all others by their difference."},
           "ENDPOINT", "an endpoint (`crossgrain list endpoints`)", "of the reference's mean", true),
       looksKeys().info(),
-      marginSection({.name = "averaging.margins",
-                     .kinds = "couette",
-                     .commands = "compare plan effects",
-                     .note = "How far apart two engines may be in a ring, for the colours of rings "
-                             "and for what `effects` reports."},
-                    "FIELD", "a field of `profiles.csv` (`crossgrain list fields`)",
-                    "of the reference's mean", true)};
+      marginSection(
+          {.name = "averaging.margins",
+           .kinds = "couette",
+           .commands = "compare plan effects",
+           .note =
+               "Largest difference of two engines in a ring, for its colour and for `effects`."},
+          "FIELD", "a field of `profiles.csv` (`crossgrain list fields`)",
+          "of the reference's mean", true)};
 }
 
 std::vector<SectionInfo> runSections() {
@@ -327,7 +325,7 @@ std::vector<SectionInfo> runSections() {
            .commands = runKeys().info().commands + " average",
            .keys = {{"SETTING", "the setting's", "the engine's", "",
                      "of one engine: a boolean, a number or a string; `crossgrain engines` lists "
-                     "each engine's, the engine checks them"}}},
+                     "them, the engine checks them"}}},
           stabilityKeys().info()};
 }
 

@@ -22,9 +22,7 @@ const Section<BoxInput<D>>& boxKeys() {
   static const Section<I> section(
       {.name = "assembly.box",
        .kinds = "assembly",
-       .note =
-           "A cell with periodic directions: what leaves at one side comes in at the other, and "
-           "contacts reach across. Along other directions it bounds nothing."},
+       .note = "A cell with periodic directions. Along other directions it is no boundary."},
       {need("low", &I::low, anyNumber("m"), "[x, y] of one corner; in space [x, y, z]"),
        need("high", &I::high, anyNumber("m"), "of the other, beyond it"),
        need("periodic", &I::along, D == 2 ? Names{"x", "y"} : Names{"x", "y", "z"},
@@ -75,8 +73,8 @@ const Section<StartInput<D>>& startKeys() {
       {need("file", &I::files, ExistingFile{".csv"},
             "one CSV or HDF5 file, or a list of different ones: each is a packing"),
        special<I>({"shapes", "m", "–", "a table",
-                   "convex bodies that rows of CSV files name: `{ brick = { box = [0.2, 0.1] }, … "
-                   "}`, each as `shape` of `[[assembly.disks]]`"},
+                   "convex bodies by name, for rows of CSV files: `{ brick = { box = [0.2, 0.1] }, "
+                   "… }`, each as `shape` of `[[assembly.disks]]`"},
                   [](Reader& in, const std::string& key, I& start) {
                     Reader named = in.section(key);
                     for (const std::string& name : named.keys()) {
@@ -90,10 +88,10 @@ const Section<StartInput<D>>& startKeys() {
        key("density", &I::density, densities<D>(), densityMeaning)
            .listed("required where a file has no masses"),
        key("velocity_rms", &I::velocityRms, atLeast(0.0, "m/s"),
-           "normally distributed, added: makes `preparation.packings` packings of the files in "
+           "normally distributed addition: makes `preparation.packings` packings of the files in "
            "turn"),
        key("material", &I::material, any,
-           "of its disks, a name of `[[law.pairs]]`, where their rows name none"),
+           "of its disks, from `[[law.pairs]]`, where their rows name none"),
        key("fixed_material", &I::fixedMaterial, any, "of those that stand still")});
   return section;
 }
