@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cctype>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "cases/loader_sections.hpp"
+#include "law/law_options.hpp"
+#include "stability/measures.hpp"
 
 namespace crossgrain::inline cases {
 namespace {
@@ -24,29 +28,53 @@ std::string cell(std::string text) {
   return text;
 }
 
-/// The section that gives a meaning first, by the meaning.
+/// The section that gives a text first, by the text.
 using FirstPlaces = std::map<std::string, std::string>;
 
-/// The rows of a section's table. A long meaning is given once, then by its section; neighbours of
-/// one default and meaning share a row, without unit and values where these differ.
-std::vector<KeyInfo> rowsOf(const SectionInfo& section, const std::string& name,
-                            FirstPlaces& places) {
-  constexpr std::size_t longMeaning = 60;
-  std::vector<KeyInfo> rows;
-  for (KeyInfo key : section.keys) {
-    if (key.meaning.size() > longMeaning) {
-      const auto [first, isNew] = places.try_emplace(key.meaning, name);
-      if (!isNew) key.meaning = "as in " + first->second;
+/// The text; by its section where it is long and given before.
+std::string orItsPlace(const std::string& text, const std::string& section, FirstPlaces& places) {
+  constexpr std::size_t longText = 30;
+  if (text.size() <= longText) return text;
+  const auto [first, isNew] = places.try_emplace(text, section);
+  return isNew ? text : "as in " + first->second;
+}
+
+template <typename Named>
+std::string namesOfAll(std::span<const Named> all) {
+  Names names;
+  for (const Named& each : all) names.emplace_back(each.name);
+  return valuesOf(names);
+}
+
+/// Values with their unit: "> 0 m", "a table, m", "m"; the options of laws without their names.
+std::string valuesWithUnit(const KeyInfo& key) {
+  const std::string unit = key.unit == "–" ? "" : key.unit, options = namesOfAll(lawOptions());
+  if (key.values.empty() || unit.empty()) {
+    const bool ofLaw = key.values.starts_with(options);
+    return (ofLaw ? "options of `[law]`" + key.values.substr(options.size()) : key.values) + unit;
+  }
+  return key.values + (std::isalpha(key.values.front()) != 0 ? ", " : " ") + unit;
+}
+
+/// A row of a section's table.
+struct Row {
+  std::string keys, standard, values, meaning;
+};
+
+/// Neighbours of one default and meaning share a row, without values where these differ.
+std::vector<Row> rowsOf(const SectionInfo& section, const std::string& name, FirstPlaces& places) {
+  std::vector<Row> rows;
+  for (const KeyInfo& key : section.keys) {
+    const std::string values = orItsPlace(valuesWithUnit(key), name, places);
+    const std::string meaning = orItsPlace(key.meaning, name, places);
+    const std::string standard = key.standard == "–" ? "" : key.standard;
+    if (!rows.empty() && !meaning.empty() && rows.back().meaning == meaning &&
+        rows.back().standard == standard) {
+      rows.back().keys += "`, `" + key.name;
+      if (rows.back().values != values) rows.back().values.clear();
+    } else {
+      rows.push_back({key.name, standard, values, meaning});
     }
-    const bool joins = !rows.empty() && !key.meaning.empty() &&
-                       rows.back().meaning == key.meaning && rows.back().standard == key.standard;
-    if (!joins) {
-      rows.push_back(key);
-      continue;
-    }
-    rows.back().name += "`, `" + key.name;
-    if (rows.back().unit != key.unit) rows.back().unit.clear();
-    if (rows.back().values != key.values) rows.back().values.clear();
   }
   return rows;
 }
@@ -150,18 +178,19 @@ const std::vector<SectionInfo>& caseSections() {
 
 std::string keysInMarkdown() {
   std::string page =
-      "## Keys\n\"required\" has no default. A key that is not listed does not exist. `crossgrain "
-      "list keys` prints these tables.\n\n";
-  FirstPlaces places;
+      "## Keys\nNo default: the key is \"required\", or optional where the cell is empty. A key "
+      "that "
+      "is not listed does not exist. `crossgrain list keys` prints these tables.\n\n";
+  FirstPlaces places = {{namesOfAll(stabilityMeasures()), "[the table](#measures-of-hard-cases)"}};
   for (const SectionInfo& section : caseSections()) {
     const std::string name = fmt::format("`{}{}{}`", section.isList ? "[[" : "[", section.name,
                                          section.isList ? "]]" : "]");
     page +=
         fmt::format("### {}{}\n", name, section.kinds.empty() ? "" : " (" + section.kinds + ")");
     if (!section.note.empty()) page += section.note + "\n";
-    page += "\n| key | unit | default | values | meaning |\n|---|---|---|---|---|\n";
-    for (const KeyInfo& row : rowsOf(section, name, places))
-      page += fmt::format("| `{}` | {} | {} | {} | {} |\n", row.name, row.unit, cell(row.standard),
+    page += "\n| key | default | values | meaning |\n|---|---|---|---|\n";
+    for (const Row& row : rowsOf(section, name, places))
+      page += fmt::format("| `{}` | {} | {} | {} |\n", row.keys, cell(row.standard),
                           cell(row.values), cell(row.meaning));
     page += '\n';
   }
