@@ -34,19 +34,17 @@ const Names caseKinds = {"couette", "collision", "assembly"};  // in the order o
 const Section<Header>& headerKeys() {
   static const Section<Header> section(
       {.name = "case"},
-      {key("name", &Header::name, any, "in reports and file names: letters, digits and `. _ - +`")
-           .listed("the file's name"),
+      {key("name", &Header::name, any, "letters, digits and `. _ - +`").listed("the file's name"),
        need("kind", &Header::kind, caseKinds, ""),
        special<Header>({"dimension", "", "2", "2, 3",
-                        "3: spheres in space, of collisions and assemblies (docs/dimensions.md)"},
+                        "3: spheres in space (docs/dimensions.md), not of couette"},
                        [](Reader& in, const std::string& key, Header& header) {
                          in.read(key, header.dimension, between(2, 3));
                        }),
-       special<Header>(
-           {"extends", "", "–", "",
-            "another case file, relative to this one; else one of the installed cases, `cases/…`"},
-           // readCaseDocuments() takes it
-           [](Reader&, const std::string&, Header&) {})});
+       special<Header>({"extends", "", "–", "",
+                        "a case file, relative to this one, or an installed one, `cases/…`"},
+                       // readCaseDocuments() takes it
+                       [](Reader&, const std::string&, Header&) {})});
   return section;
 }
 
@@ -412,9 +410,9 @@ std::string kindOf(const Case& setup) {
 std::vector<SectionInfo> headerSections() {
   return {headerKeys().info(),
           {.name = "variants",
-           .note = "The case is run with each of these changes. Sections and keys as below, and",
+           .note = "Each is run: the case with these changes, sections and keys as below, and",
            .isList = true,
-           .keys = {{"name", "", "required", "", "unique name of the variant, as `case.name`"}}}};
+           .keys = {{"name", "", "required", "", "unique, as `case.name`"}}}};
 }
 
 std::vector<Case> loadCase(const std::filesystem::path& file,

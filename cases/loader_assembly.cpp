@@ -105,18 +105,16 @@ struct Arrangement {
 };
 constexpr Arrangement arrangements[] = {
     {"grid",
-     "`{ columns, rows, spacing = 1, triangular = false }`: to the right and upward. In space also "
-     "`layers = 1` and `axes = \"xyz\"`, the axes of columns, rows and layers; triangular layers "
-     "are close-packed",
+     "`{ columns, rows, spacing = 1, triangular = false }`: right and up. In space also `layers = "
+     "1`, `axes = \"xyz\"` of columns, rows, layers; triangular: close-packed",
      true},
-    {"stack", "`{ count, spacing = 1 }`: upward", false},
-    {"chain", "`{ count, spacing = 1 }`: to the right", true},
-    {"heap", "`{ base, spacing = 1 }`: a triangle of rows of base, base − 1, … disks", false},
-    {"line", "`{ count, step }`: each off by step, [x, y] in diameters, from the one before", true},
+    {"stack", "`{ count, spacing = 1 }`, up", false},
+    {"chain", "`{ count, spacing = 1 }`, right", true},
+    {"heap", "`{ base, spacing = 1 }`: rows of base, base − 1, … disks", false},
+    {"line", "`{ count, step }`: step [x, y]", true},
     {"circles",
      "in space: `{ inner = 0, outer, spacing = 1, layers = 1, rise = spacing, axis = \"z\" }`: "
-     "full circles about `position`, radii inner, inner + spacing … up to outer; layers along the "
-     "axis. For a bottom with an orifice, or a filled cylinder",
+     "about `position`, radii inner, inner + spacing … outer; layers along the axis",
      true}};
 
 /// Adds the keys of arrangements, of which one may be given.
@@ -160,9 +158,8 @@ const Section<DisksInput<D>>& disksKeys() {
   static const Section<I> section(
       {.name = "assembly.disks",
        .kinds = "assembly",
-       .note =
-           "One or more, unless the disks come from a file. In space spheres: vectors and `spin` "
-           "have three numbers. With `shape` convex bodies: `position` is the centre of mass.",
+       .note = "In space spheres: vectors and `spin` have three numbers. With `shape` [convex "
+               "bodies](#convex-bodies): `position` is the centre of mass.",
        .isList = true},
       withArrangements<D, I>(
           {need("position", &I::position, anyNumber("m"), "[x, y] of the (first) disk"),
@@ -180,28 +177,26 @@ const Section<DisksInput<D>>& disksKeys() {
                           in.take(name);
                       }),
            key("angle", &I::angle, between(-360.0, 360.0, "degrees"),
-               "of a convex body in the plane, counter-clockwise"),
+               "of a convex body, in the plane"),
            key("quaternion", &I::quaternion, Range{},
-               "[w, x, y, z] of length 1: from a convex body's frame to the scene's")
+               "[w, x, y, z], of a convex body, to the scene's frame")
                .listed("[1, 0, 0, 0]"),
-           key("random_turn", &I::randomTurn, any, "uniformly random orientation"),
+           key("random_turn", &I::randomTurn, any, "uniformly random"),
            key("inertia", &I::inertia, positive("kg m^2"),
-               "of a convex body about its centre of mass; in space [J_x, J_y, J_z] about its "
-               "principal axes")
+               "of a convex body; in space [J_x, J_y, J_z] about principal axes")
                .listed("by density"),
            key("mass", &I::mass, positive("kg"), "").listed("one of the two"),
            key("density", &I::density, densities<D>(), densityMeaning).listed("one of the two"),
            key("velocity", &I::velocity, anyNumber("m/s"), ""),
            key("spin", &I::spin, anyNumber("rad/s"), ""),
            key("choose", &I::choose, between(1, mostDisks),
-               "number of places, drawn at random in each packing")
+               "number of places, random in each packing")
                .listed("all"),
            key("jitter", &I::jitter, atLeast(0.0, "diameters"),
                "largest random shift of each coordinate"),
            key("radius_spread", &I::radiusSpread, between(0.0, 0.9),
-               "radii vary by up to this share, masses as their square (in space cube)"),
-           key("velocity_rms", &I::velocityRms, atLeast(0.0, "m/s"),
-               "normally distributed, added to `velocity`"),
+               "radii vary by up to this share, masses as the square (in space cube)"),
+           key("velocity_rms", &I::velocityRms, atLeast(0.0, "m/s"), "normally distributed, added"),
            keyOf<I>(
                "material", [](I& d) -> MaterialName& { return d.material; }, any,
                "of `[[law.pairs]]`")}));
@@ -269,32 +264,29 @@ const Section<WallsInput<D>>& wallsKeys() {
   static const Section<I> section = [] {
     std::vector<Key<I>> keys = {
         key("point", &PlaneOf<D>::point, anyNumber("m"), "of a plane").listed("–"),
-        key("normal", &PlaneOf<D>::normal, Range{}, "of a plane; it points to the free side")
-            .listed("–"),
+        key("normal", &PlaneOf<D>::normal, Range{}, "to the free side").listed("–"),
         key("box", &I::box, anyNumber("m"),
-            "[left, bottom, right, top]: four planes around a room; in space lower and upper "
-            "corner, six planes"),
-        special<I>({"cylinder", "", "–", "a table",
-                    "in space: `{ point = [0, 0, 0], axis, radius, omega = 0 }`: hollow, without "
-                    "ends, spheres inside; point and radius in m. It and its other members turn "
-                    "about the axis at omega [rad/s]"},
-                   [](Reader& in, const std::string& name, I& wall) {
-                     if (!in.has(name)) return static_cast<void>(in.take(name));
-                     if constexpr (D == 3) readCylinder(in.section(name), wall);
-                   }),
+            "[left, bottom, right, top], four planes; in space lower and upper corner, six planes"),
+        special<I>(
+            {"cylinder", "", "–", "a table",
+             "in space: `{ point = [0, 0, 0], axis, radius, omega = 0 }` [m, rad/s]: hollow, "
+             "without ends, spheres inside. All of the wall turns about the axis at omega"},
+            [](Reader& in, const std::string& name, I& wall) {
+              if (!in.has(name)) return static_cast<void>(in.take(name));
+              if constexpr (D == 3) readCylinder(in.section(name), wall);
+            }),
         key("position", &I::first, anyNumber("m"), "[x, y] of the (first) wall disk").listed("–"),
         key("radius", &I::radius, positive("m"), "of wall disks").listed("–"),
-        key("velocity", &Moved::velocity, anyNumber("m/s"), "it travels").listed("–"),
+        key("velocity", &Moved::velocity, anyNumber("m/s"), "travels").listed("–"),
         key("amplitude", &Moved::amplitude, anyNumber("m"),
-            "or it swings: amplitude [x, y] times sin(frequency t)")
+            "or swings: amplitude [x, y] times sin(frequency t)")
             .listed("–"),
-        key("frequency", &Moved::frequency, positive("rad/s"), "of that")
-            .listed("with `amplitude`")};
+        key("frequency", &Moved::frequency, positive("rad/s"), "").listed("with `amplitude`")};
     if constexpr (D == 2) {
       keys.push_back(key("omega", &Moved::angularVelocity, anyNumber("rad/s"),
-                         "or it turns about a centre; in the plane only")
+                         "or turns about `centre`; in the plane")
                          .listed("–"));
-      keys.push_back(key("centre", &I::centre, anyNumber("m"), "of that"));
+      keys.push_back(key("centre", &I::centre, anyNumber("m"), ""));
     }
     keys.push_back(keyOf<I>(
         "material", [](I& w) -> MaterialName& { return w.material; }, any, "of `[[law.pairs]]`"));
@@ -373,25 +365,22 @@ const Section<AssemblyOf<D>>& assemblyKeys() {
   using A = AssemblyOf<D>;
   static const Section<A> section = [] {
     std::vector<Key<A>> keys = {
-        key("duration", &A::duration, positive("s"), "how long it runs").listed("one of three"),
-        key("contact_times", &A::contactTimes, positive("t_c"),
-            "the same, in contact times of the lightest pair")
+        key("duration", &A::duration, positive("s"), "of the run").listed("one of three"),
+        key("contact_times", &A::contactTimes, positive("t_c"), "of the lightest pair")
             .listed("one of three"),
-        key("steps", &A::steps, positive(), "the same, in steps of the case's dt")
-            .listed("one of three"),
-        key("gravity", &A::gravity, anyNumber("m/s^2"), "in the plane"),
+        key("steps", &A::steps, positive(), "of the case's dt").listed("one of three"),
+        key("gravity", &A::gravity, anyNumber("m/s^2"), ""),
         key("max_overlap", &A::maxOverlap, between(0.0, 2.0),
-            "largest overlap of a start, in units of the smallest radius"),
+            "largest of a start, in smallest radii"),
         key("inertia_factor", &A::inertiaFactor, aboveZeroTo(1.0),
             "as in `[particles]`; in space 0.4"),
         key("rotation", &A::rotation, any, "as in `[particles]`"),
-        key("seed", &A::seed, between(0, mostSeed),
-            "of all random numbers; `[preparation] seed` takes precedence")};
+        key("seed", &A::seed, between(0, mostSeed), "`preparation.seed` takes precedence")};
     if constexpr (D == 2) {
       keys.push_back(keyOf<A>(
           "mirror", [](A& a) -> bool& { return a.placement.mirror; }, any,
-          "the scene is mirrored at the y axis; this and the next three in the plane only"));
-      keys.push_back(special<A>({"rotate", "degrees", "0", "", "then turned about the origin"},
+          "mirrored at the y axis; this and the next three in the plane only"));
+      keys.push_back(special<A>({"rotate", "degrees", "0", "", "then, about the origin"},
                                 [](Reader& in, const std::string& key, A& a) {
                                   double degrees = 0.0;
                                   in.read(key, degrees, anyNumber("degrees"));
@@ -402,14 +391,14 @@ const Section<AssemblyOf<D>>& assemblyKeys() {
           "then shifted"));
       keys.push_back(keyOf<A>(
           "boost", [](A& a) -> Vec2& { return a.placement.boost; }, anyNumber("m/s"),
-          "then this velocity is added to all, walls too"));
+          "then, added to all velocities, walls too"));
     }
-    return Section<A>({.name = "assembly",
-                       .kinds = "assembly",
-                       .note = "Disks, or spheres with `case.dimension = 3`, and walls, for "
-                               "`crossgrain stability` or, with `[average]`, `compare` and "
-                               "`lockstep`. With `dt` given a linear contact may be overdamped."},
-                      std::move(keys));
+    return Section<A>(
+        {.name = "assembly",
+         .kinds = "assembly",
+         .note = "Disks, or spheres, and walls, for `stability` or, with `[average]`, `compare` "
+                 "and `lockstep`. With `dt` given a linear contact may be overdamped."},
+        std::move(keys));
   }();
   return section;
 }

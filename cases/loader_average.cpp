@@ -36,41 +36,34 @@ const Section<AverageInput>& averageKeys() {
       {.name = "average",
        .kinds = "assembly",
        .commands = "compare plan lockstep identify baseline effects cost average",
-       .note = "Bins that `compare` averages over, in a part of the plane or of space that does "
-               "not move with walls. Each of `preparation.packings` packings runs for "
-               "`assembly.duration`."},
-      {need(
-           "bins", &A::bins, Names(binKindNames.begin(), binKindNames.end()),
-           "fields of rings (about the origin, in space about the z axis) have directions r and φ, "
-           "all others x and y (and z)"),
-       key("low", &A::lowCorner, anyNumber("m"),
-           "[x, y] of the lower left corner; in space [x, y, z]")
+       .note = "Bins of `compare`, in a part of the plane or of space that does not move with "
+               "walls. Each packing runs for `assembly.duration`."},
+      {need("bins", &A::bins, Names(binKindNames.begin(), binKindNames.end()),
+            "rings (about the origin, in space the z axis) have directions r and φ, all others x, "
+            "y (and z)"),
+       key("low", &A::lowCorner, anyNumber("m"), "lower left corner")
            .listed("required, not of rings"),
-       key("high", &A::highCorner, anyNumber("m"), "of the upper right corner, likewise")
+       key("high", &A::highCorner, anyNumber("m"), "upper right corner")
            .listed("required, not of rings"),
-       key("along", &A::along, Names{"x", "y", "z"}, "the axis of slabs")
-           .listed("required of slabs"),
-       key("count", &A::count, bins, "number of slabs or rings")
-           .listed("required of slabs and rings"),
-       key("columns", &A::columns, columns, "along x; bin 1 is at the lower left corner")
+       key("along", &A::along, Names{"x", "y", "z"}, "axis").listed("required of slabs"),
+       key("count", &A::count, bins, "").listed("required of slabs and rings"),
+       key("columns", &A::columns, columns, "along x; bin 1 is lower left")
            .listed("required of a grid"),
        key("rows", &A::rows, columns, "along y").listed("required of a grid"),
-       key("layers", &A::layers, columns, "along z, of a grid or rings in space"),
-       key("bottom", &A::bottom, anyNumber("m"), "lowest z of rings in space")
-           .listed("required of rings in space"),
-       key("top", &A::top, anyNumber("m"), "their highest").listed("required of rings in space"),
+       key("layers", &A::layers, columns, "along z"),
+       key("bottom", &A::bottom, anyNumber("m"), "lowest z").listed("required of rings in space"),
+       key("top", &A::top, anyNumber("m"), "highest z").listed("required of rings in space"),
        key("inner_radius", &A::innerRadius, atLeast(0.0, "m"), "").listed("required of rings"),
        key("outer_radius", &A::outerRadius, positive("m"), "").listed("required of rings"),
-       key("height", &A::height, positive("m"),
-           "h of the disks, normal to the plane; spheres have none"),
-       need("from", &A::from, atLeast(0.0, "s"), "what comes before is not averaged"),
+       key("height", &A::height, positive("m"), "h of the disks, not of spheres"),
+       need("from", &A::from, atLeast(0.0, "s"), "averaged from then"),
        key("snapshots", &A::snapshots, between(1, 1'000'000),
-           "evenly spread from `from` to the end, a time step or more apart"),
+           "evenly spread, a time step or more apart"),
        key("method", &A::methods, allWeightNames(),
-           "as in `[averaging]`; in space slicing, centre or, for slabs, heaviside, lucy, gauss"),
+           "in space slicing, centre or, for slabs, heaviside, lucy, gauss"),
        key("line_width", &A::lineWidth,
            Range{.low = 0.0, .high = 1000.0, .lowOpen = true, .unit = "d"},
-           "as in `[averaging]`, of the smallest disks"),
+           "w, in smallest diameters"),
        key("confidence", &A::confidence, inside(0.0, 1.0), "as in `[averaging]`")});
   return section;
 }
@@ -206,8 +199,7 @@ std::vector<SectionInfo> averageSections() {
   return {averageKeys().info(),
           marginSection({.name = "average.margins",
                          .kinds = "assembly",
-                         .note = "Largest difference of two engines in a bin, for its colour. "
-                                 "Endpoints decide verdicts."},
+                         .note = "Per bin, for colours. Endpoints decide verdicts."},
                         "FIELD", "a field of `profiles.csv`", "of the reference's mean", false),
           endpointsSection()};
 }

@@ -42,46 +42,38 @@ const Section<Collision>& collisionKeys() {
       {.name = "collision",
        .kinds = "collision",
        .commands = "compare plan lockstep identify baseline record effects cost stability collide",
-       .note = "Two disks that meet, or a disk and a wall, with Ψ_i = v_t/\\|v_n\\| of the contact "
-               "point; one sweep over `psi` for each `vn` and each `steps_per_contact`. With "
-               "`shape` a convex body that meets a wall, a body or a disk with one corner, under a "
-               "rigid law; a sweep over `psi`, `orientation` and `spin`."},
+       .note = "Two disks, or a disk and a wall, with Ψ_i = v_t/\\|v_n\\| of the contact point; "
+               "one sweep over `psi` for each `vn` and `steps_per_contact`. With `shape`: convex "
+               "bodies ([rules](#collisions))."},
       {special<Collision>(
            {"psi", "–", "required", "", "a number, a list, or `{ from = 0, to = 4, count = 41 }`"},
            [](Reader& in, const std::string& key, Collision& c) {
              readSweep(in, key, c.psi, anyNumber());
            }),
-       special<Collision>({"angle", "degrees", "–", "(-90, 90)",
-                           "instead of `psi`: the angle between velocity and normal, Ψ_i = "
-                           "tan(angle)"},
-                          [](Reader& in, const std::string& key, Collision& c) {
-                            if (!in.has(key)) return static_cast<void>(in.take(key));
-                            in.check(!in.has("psi"), key, "and psi, its tangent: give one of them");
-                            readSweep(in, key, c.psi, inside(-90.0, 90.0, "degrees"));
-                            for (double& psi : c.psi)
-                              psi = std::tan(psi * std::numbers::pi / 180.0);
-                          }),
-       key("vn", &Collision::vn, speeds, "speed of approach, a number or a list")
-           .listed("required"),
-       key("speed", &Collision::speed, speeds,
-           "instead of `vn`: √(v_n² + v_t²), the same for every Ψ_i")
-           .listed("–"),
+       special<Collision>(
+           {"angle", "degrees", "–", "(-90, 90)", "instead of `psi`: Ψ_i = tan(angle)"},
+           [](Reader& in, const std::string& key, Collision& c) {
+             if (!in.has(key)) return static_cast<void>(in.take(key));
+             in.check(!in.has("psi"), key, "and psi, its tangent: give one of them");
+             readSweep(in, key, c.psi, inside(-90.0, 90.0, "degrees"));
+             for (double& psi : c.psi) psi = std::tan(psi * std::numbers::pi / 180.0);
+           }),
+       key("vn", &Collision::vn, speeds, "of approach, a number or a list").listed("required"),
+       key("speed", &Collision::speed, speeds, "instead of `vn`: √(v_n² + v_t²)").listed("–"),
        key("approach", &Collision::approach, Names{"spin", "first_spin", "oblique"},
-           "v_t comes from both disks' spins (centres head on), the first one's, or the centres' "
-           "velocities"),
+           "v_t is of equal spins (centres head on), the first spin, or the centres' velocities"),
        key("counter_spin", &Collision::counterSpin, anyNumber("rad/s"),
-           "a list: added to the first spin; a_i/a_j of it subtracted from the second, so that v_t "
-           "stays"),
+           "a list: added to the first spin, a_i/a_j of it subtracted from the second; v_t stays"),
        special<Collision>({"second", "", "\"disk\"", "disk, wall, body",
-                           "`wall`: a plane of infinite mass; `body`: a convex body, a face of "
-                           "which meets a corner of the first"},
+                           "`wall`: a plane of infinite mass; `body`: convex; its face meets a "
+                           "corner of the first"},
                           [](Reader& in, const std::string& key, Collision& c) {
                             std::string second = "disk";
                             in.read(key, second, Names{"disk", "wall", "body"});
                             c.wall = second == "wall";
                           }),
        special<Collision>({"wall_velocity", "m/s", "[0, 0]", "",
-                           "along its normal and along the wall; the relative motion stays"},
+                           "along its normal and the wall; relative motion stays"},
                           [](Reader& in, const std::string& key, Collision& c) {
                             std::vector<double> velocity(2);
                             in.read(key, velocity, anyNumber());
@@ -89,63 +81,57 @@ const Section<Collision>& collisionKeys() {
                                      "must be [along its normal, along it] in m/s");
                             c.wallVelocity = {velocity[0], velocity[1]};
                           }),
-       key("radius", &Collision::radius, positive("m"), "one number for both disks, or `[a, b]`")
+       key("radius", &Collision::radius, positive("m"), "of both disks, or `[a, b]`")
            .listed("required without `shape`")
            .usedBy(users),
        need("mass", &Collision::mass, positive("kg"), "likewise").usedBy(users),
-       special<Collision>(
-           {"material", "", "–", "",
-            "one name of `[[law.pairs]]` for both, or `[a, b]`; a wall is the second"},
-           [](Reader& in, const std::string& key, Collision& c) {
-             const toml::node* const node = in.take(key);
-             if (!node) return;
-             const toml::array* const both = node->as_array();
-             in.check(!both || both->size() == 2, key, "must be one name or two");
-             for (const std::size_t side : {0u, 1u})
-               convert({both ? *both->get(side) : *node, "collision.material"},
-                       c.material.emplace_back());
-           }),
+       special<Collision>({"material", "", "–", "", "of both, or `[a, b]`; a wall is the second"},
+                          [](Reader& in, const std::string& key, Collision& c) {
+                            const toml::node* const node = in.take(key);
+                            if (!node) return;
+                            const toml::array* const both = node->as_array();
+                            in.check(!both || both->size() == 2, key, "must be one name or two");
+                            for (const std::size_t side : {0u, 1u})
+                              convert({both ? *both->get(side) : *node, "collision.material"},
+                                      c.material.emplace_back());
+                          }),
        key("inertia_factor", &Collision::inertiaFactor, aboveZeroTo(1.0), "as in `[particles]`")
            .usedBy(users),
        keyOf<Collision>(
            "first_spin", [](auto& c) -> auto& { return c.spinOutOfPlane[0]; }, anyNumber("rad/s"),
-           "in space, additional spin of the first body about the line of centres n and the "
-           "tangent s"),
+           "in space, additional spin about n (line of centres) and s (tangent)"),
        keyOf<Collision>(
            "second_spin", [](auto& c) -> auto& { return c.spinOutOfPlane[1]; }, anyNumber("rad/s"),
-           "the same of the second"),
+           "likewise"),
        special<Collision>(
            {"turn", "degrees", "[0, 0, 0]", "",
-            "in space, rotation vector of the scene; before, n, s and n × s are along x, y and z"},
+            "in space, rotation vector of the scene; before, n, s, n × s are along x, y, z"},
            [](Reader& in, const std::string& key, Collision& c) {
              std::vector<double> degrees(3);
              in.read(key, degrees, anyNumber());
              in.check(degrees.size() == 3, key, "must be [x, y, z] in degrees");
              c.turn = Vec3::Map(degrees.data()) * (std::numbers::pi / 180.0);
            }),
-       later(
-           "shape", "m", "–", "a table",
-           "a convex body, as under `[[assembly.disks]]`, in place of the first disk of `radius`"),
+       later("shape", "m", "–", "a table",
+             "convex body, as of `[[assembly.disks]]`, as first body"),
        later("second_shape", "m", "`shape`", "a table", "of `second = \"body\"`"),
-       later("second_radius", "m", "–", "> 0", "of a disk, or sphere, that a convex body meets"),
+       later("second_radius", "m", "–", "> 0", "of a disk or sphere that a convex body meets"),
        later("offset", "m", "0", "",
-             "of the corner from the middle of the second body's face, along s; in space [along s, "
+             "of the corner from the middle of the second's face, along s; in space [along s, "
              "along n × s]"),
        special<Collision>({"orientation", "degrees", "0", "[-360, 360]",
                            "of the convex body at the touch, counter-clockwise, a sweep like "
-                           "`psi`; at 0 its axes x, y are along n (towards it), s"},
+                           "`psi`; at 0 its x, y are along n (towards it), s"},
                           [](Reader& in, const std::string& key, Collision& c) {
                             if (!in.has(key)) return static_cast<void>(in.take(key));
                             c.orientation.clear();
                             readSweep(in, key, c.orientation, between(-360.0, 360.0, "degrees"));
                             for (double& angle : c.orientation) angle *= std::numbers::pi / 180.0;
                           }),
-       later("axis", "–", "[0, 0, 1]", "", "in space, that `orientation` is about"),
-       later("quaternion", "–", "[1, 0, 0, 0]", "",
-             "in space, as under `[[assembly.disks]]`: the orientation at `orientation = 0`"),
+       later("axis", "–", "[0, 0, 1]", "", "in space, of `orientation`"),
+       later("quaternion", "–", "[1, 0, 0, 0]", "", "in space, at `orientation = 0`"),
        special<Collision>({"spin", "rad/s", "0", "",
-                           "of the convex body at the touch, about n × s, a sweep like `psi`; the "
-                           "centre's velocity is set so that v_n and Ψ_i hold"},
+                           "of the convex body at the touch, about n × s, a sweep like `psi`"},
                           [](Reader& in, const std::string& key, Collision& c) {
                             if (!in.has(key)) return static_cast<void>(in.take(key));
                             c.spin.clear();
@@ -158,7 +144,7 @@ const Section<Collision>& collisionKeys() {
                  .high = 1.0,
                  .highOpen = true,
                  .reason = ": from 0 on, else the two overlap at the start"},
-           "the bodies touch this fraction of a step after a step")});
+           "touch, as fraction of a step")});
   return section;
 }
 
@@ -310,9 +296,8 @@ std::vector<SectionInfo> collisionSections() {
           marginSection({.name = "collision.margins",
                          .kinds = "collision",
                          .commands = "collide",
-                         .note = "Without margins nothing is judged and `collide` exits with 1."},
-                        "QUANTITY", "how far from the oracle it may be", "of the oracle's curve",
-                        false)};
+                         .note = "Without margins nothing is judged: exit 1."},
+                        "QUANTITY", "largest error", "of the oracle's curve", false)};
 }
 
 void readCollision(Reader& in, Collision& c, int dimension) {

@@ -34,38 +34,37 @@ std::vector<Key<Cost>> costTable() {
       key("knobs", &Cost::knobs, Names(costKnobs.begin(), costKnobs.end()), "what is varied")
           .listed("all"),
       key("disks", &Cost::disks, between(1, 20'000'000),
-          "numbers of disks for timing a step; a scene that cannot grow reports why")
+          "for timing a step, where the scene can grow")
           .listed("its own, and four times it", "–"),
       key("threads", &Cost::threads, between(1, 1024),
-          "threads, or ranks, that share a step; one is always timed")
+          "or ranks, that share a step; one is always timed")
           .listed("1, 2, 4, … up to the cores", "–"),
-      key("timed", &Cost::timed, positive("s"), "what is shorter is not called measured"),
+      key("timed", &Cost::timed, positive("s"), "shorter times do not count as measured"),
       key("repeats", &Cost::repeats, between(2, 1000),
-          "rounds over all settings; their scatter gives the interval of a time"),
-      key("collision_steps", &Cost::collisionSteps, steps, "steps of two bodies that collide"),
+          "rounds over all settings, for intervals of times"),
+      key("collision_steps", &Cost::collisionSteps, steps, "of two bodies that collide"),
       key("speed", &Cost::speed, positive("m/s"),
-          "their v_n; default from a run of the scene: median and, if the law depends on the "
-          "speed, 95th percentile of each kind of pair"),
-      key("psi_max", &Cost::psiMax, positive(), "their Ψ_i go from 0 to this"),
-      key("psi_count", &Cost::psiCount, between(2, 10'000), "number of their Ψ_i"),
+          "their v_n; default from a run of the scene: median and, if the law depends on speed, "
+          "95th percentile per kind of pair"),
+      key("psi_max", &Cost::psiMax, positive(), "Ψ_i from 0 to this"),
+      key("psi_count", &Cost::psiCount, between(2, 10'000), ""),
       key("collision_reference", &Cost::collisionReference, steps,
-          "steps of an engine's own reference, where its law has no oracle"),
-      key("trajectory_steps", &Cost::trajectorySteps, steps, "steps of a packing's path"),
-      key("trajectory_reference", &Cost::trajectoryReference, steps, "steps of its reference"),
+          "of an engine's own reference, where its law has no oracle"),
+      key("trajectory_steps", &Cost::trajectorySteps, steps, "of a packing's path"),
+      key("trajectory_reference", &Cost::trajectoryReference, steps, "of its reference"),
       key("window_most", &Cost::windowMost, positive("t_c"), "longest window"),
       key("trajectory_packings", &Cost::trajectoryPackings, between(2, 10'000),
-          "so many of the case's, from the first"),
-      key("average_steps", &Cost::averageSteps, steps,
-          "steps of averages over whole runs of all packings"),
-      key("average_reference", &Cost::averageReference, steps, "steps of the reference ensemble"),
+          "of the case's, from the first"),
+      key("average_steps", &Cost::averageSteps, steps, "of averages over whole runs"),
+      key("average_reference", &Cost::averageReference, steps, "of their reference"),
       key("rigid_steps", &Cost::rigidSteps, between(1e-3, 1000),
-          "rigid bodies: steps per step of the case: 0.5 doubles the step, 2 halves it"),
+          "rigid bodies: steps per step of the case"),
       key("iterations", &Cost::iterations, between(1e-3, 1000),
-          "rigid bodies: factors on the engines' own iterations, at every step where the product "
-          "of both factors is at most the largest of both lists"),
+          "rigid bodies: factors on the engine's iterations, at steps where the product of both "
+          "factors is at most the largest of both lists"),
       key("tangential", &Cost::tangential,
           Names{"none", "coulomb", "viscous", "spring", "spring_dashpot"},
-          "laws in place of the case's")};
+          "in place of the case's")};
 }
 
 const Section<Cost>& costKeys() {
@@ -73,10 +72,10 @@ const Section<Cost>& costKeys() {
       {.name = "cost",
        .kinds = "couette, assembly",
        .commands = "cost",
-       .note = "Steps are counted per contact time t_c of the lightest pair; for a law that "
-               "stiffens, of the fastest impact without its dashpot. Rigid bodies have no contact "
-               "time: steps are parts of the case's own, and endpoints with `expected` are judged "
-               "in units of their margins. Lists may be empty."},
+       .note =
+           "Steps are per contact time t_c of the lightest pair; for a law that stiffens, of the "
+           "fastest impact without its dashpot. Rigid bodies: steps are relative to the case's, "
+           "and endpoints with `expected` are judged in their margins. Lists may be empty."},
       costTable());
   return section;
 }
@@ -86,7 +85,7 @@ const Section<Cost>& costKeys() {
 std::vector<SectionInfo> costSections() {
   SectionInfo info = costKeys().info();
   info.keys.push_back({"settings.NAME.SETTING", "the setting's", "–", "",
-                       "values of one engine's own number, e.g. `skin = [1e-4, 1e-3]`"});
+                       "of one engine, e.g. `skin = [1e-4, 1e-3]`"});
   return {info};
 }
 

@@ -26,44 +26,38 @@ const Section<EndpointInput>& endpointsKeys() {
       {.name = "endpoints",
        .kinds = "assembly",
        .commands = "compare plan effects cost average baseline",
-       .note =
-           "Numbers of a run that decide verdicts, with `[average]`. A relative margin compares by "
-           "the ratio to the reference, whose values need one sign; others by the difference.",
+       .note = "Numbers that decide verdicts, with `[average]`. A relative margin compares by the "
+               "ratio to the reference, whose values need one sign; others by the difference.",
        .isList = true},
-      {need("name", &Endpoint::name, any, "as `case.name`; no two are alike"),
+      {need("name", &Endpoint::name, any, "unique, as `case.name`"),
        need("quantity", &Endpoint::quantity, any,
             "a field of `profiles.csv`, or a quantity of `crossgrain list endpoints`"),
        key("disk", &Endpoint::disk, between(0, mostDisks),
-           "a disk, from 0, for `quantity` `x` …, `velocity_x` …, `spin` (in space `spin_x` …), of "
-           "a convex body `angle` and, in space, `own_spin_x` …"),
+           "from 0, for `x` …, `velocity_x` …, `spin` (in space `spin_x` …), of a convex body "
+           "`angle` and, in space, `own_spin_x` …"),
        key("wall", &Endpoint::wall, between(0, mostDisks),
-           "one of `[[assembly.walls]]`, from 0, for `quantity` `normal_force`, `force_x` …: force "
-           "of the disks on it"),
+           "of `[[assembly.walls]]`, from 0, for `normal_force`, `force_x` …"),
        key("plane", &Endpoint::plane, between(0, mostDisks),
            "of that wall, from 0; of a `box`: left, bottom, right, top; in space across x, y, z at "
-           "the lower corner, then at the upper one"),
-       key("area", &Endpoint::area, positive("m^2"),
-           "divides the force on a wall: a stress, in N/m²")
+           "the lower corner, then the upper"),
+       key("area", &Endpoint::area, positive("m^2"), "makes a stress of a wall's force")
            .listed("–"),
-       key("per", &Endpoint::per, any, "divisor: another quantity of the same kind and unit"),
-       special<E>(
-           {"at", "–", "\"mean\"", "", "reduction of the quantity: see Endpoints of assemblies"},
-           [](Reader& in, const std::string& key, E&) { in.take(key); }),
-       key("time", &E::time, atLeast(0.0, "s"), "instead of `at`: the value at that time of a run")
-           .listed("–"),
+       key("per", &Endpoint::per, any, "divisor: a quantity of the same kind and unit"),
+       special<E>({"at", "–", "\"mean\"", "", "[reduction](#endpoints-of-assemblies)"},
+                  [](Reader& in, const std::string& key, E&) { in.take(key); }),
+       key("time", &E::time, atLeast(0.0, "s"), "instead of `at`: the value then").listed("–"),
        key("reaches", &E::reaches, anyNumber(), "instead of `at`: when it first has this value")
            .listed("–", "the quantity's"),
-       key("between", &E::part, atLeast(0.0, "s"),
-           "[from, to]: part of a run for `at` or `reaches`")
+       key("between", &E::part, atLeast(0.0, "s"), "[from, to], for `at` or `reaches`")
            .listed("all that is averaged"),
-       key("expected", &Endpoint::expected, anyNumber(), "its value by a closed form")
+       key("expected", &Endpoint::expected, anyNumber(), "by a closed form")
            .listed("–", "the endpoint's"),
        key("relative", &MarginInput::relative, positive(),
            "of the reference's value, or of `expected`")
            .listed("one of the two"),
        key("absolute", &MarginInput::absolute, positive(), "")
            .listed("one of the two", "the endpoint's"),
-       need("why", &MarginInput::why, Sentence{"must give the reason"}, "the reason")});
+       need("why", &MarginInput::why, Sentence{"must give the reason"}, "")});
   return section;
 }
 

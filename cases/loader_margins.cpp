@@ -13,14 +13,13 @@ const Section<MarginInput>& marginKeys(bool shares) {
     if (withShares) {
       Names names;
       for (const Scale& scale : scales()) names.emplace_back(scale.name);
+      keys.push_back(key("share", &MarginInput::share, positive(),
+                         "of a scale of the case ([values](#margins)), rounded to two digits")
+                         .listed(standard));
       keys.push_back(
-          key("share", &MarginInput::share, positive(),
-              "of a scale of the case, also where a case is extended; rounded to two digits")
-              .listed(standard));
-      keys.push_back(key("of", &MarginInput::of, names, "the scale, in the unit of the quantity")
-                         .listed("with share"));
+          key("of", &MarginInput::of, names, "in the unit of the quantity").listed("with share"));
     }
-    keys.push_back(need("why", &MarginInput::why, Sentence{"must give the reason"}, "the reason"));
+    keys.push_back(need("why", &MarginInput::why, Sentence{"must give the reason"}, ""));
     return Section<MarginInput>({}, std::move(keys));
   };
   static const Section<MarginInput> plain = table(false), withShares = table(true);

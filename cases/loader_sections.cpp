@@ -39,15 +39,15 @@ const Section<Cell>& cellKeys() {
       {need("inner_radius", &Cell::innerRadius, positive("m"),
             "R_i, the wheel; wall disks' centres lie on it"),
        need("outer_radius", &Cell::outerRadius, positive("m"), "R_o, the fixed ring; likewise"),
-       need("wall_radius", &Cell::wallRadius, positive("m"), "of a wall disk"),
+       need("wall_radius", &Cell::wallRadius, positive("m"), ""),
        need("wall_spacing", &Cell::wallSpacing, positive("m"),
-            "wanted: 2πR/wall_spacing wall disks, rounded, are spread evenly"),
-       need("height", &Cell::height, positive("m"), "h of the disks, normal to the plane"),
+            "wanted; 2πR/wall_spacing disks, rounded, are spread evenly"),
+       need("height", &Cell::height, positive("m"), "h of the disks"),
        need("omega", &Cell::omega,
             Range{.unit = "rad/s",
                   .reason = ": all is timed in rotations of the wheel; < 0 is clockwise",
                   .notZero = true},
-            "Ω of the wheel, counter-clockwise; its sign is that of v_φ, spin, σ_rφ and torque"),
+            "Ω of the wheel, counter-clockwise; v_φ, spin, σ_rφ and torque have its sign"),
        key("wheel_material", &Cell::wheelMaterial, any, "of `[[law.pairs]]`"),
        key("ring_material", &Cell::ringMaterial, any, "likewise")});
   return section;
@@ -62,30 +62,27 @@ const Section<ParticlesInput>& particlesKeys() {
   using P = ParticlesInput;
   static const Section<P> section(
       {.name = "particles", .kinds = "couette"},
-      {key("small", &P::small, between(0, mostDisks), "number of small disks"),
-       key("large", &P::large, between(0, mostDisks), "number of large disks"),
-       need("small_radius", &P::smallRadius, positive("m"), "of a small disk"),
-       need("large_radius", &P::largeRadius, positive("m"), "of a large disk, ≥ `small_radius`"),
-       key("volume_fraction", &P::volumeFraction, inside(0.0, 1.0),
-           "instead of the numbers, which follow from it: ν̄")
+      {key("small", &P::small, between(0, mostDisks), "number of disks"),
+       key("large", &P::large, between(0, mostDisks), "number of disks"),
+       need("small_radius", &P::smallRadius, positive("m"), ""),
+       need("large_radius", &P::largeRadius, positive("m"), "≥ `small_radius`"),
+       key("volume_fraction", &P::volumeFraction, inside(0.0, 1.0), "ν̄, instead of the numbers")
            .listed("–"),
-       key("large_number_share", &P::largeNumberShare, between(0.0, 1.0),
-           "share of large disks by number; 0 for none")
+       key("large_number_share", &P::largeNumberShare, between(0.0, 1.0), "0: none")
            .listed("with `volume_fraction`"),
        key("large_mass_share", &P::largeMassShare, between(0.0, 1.0), "likewise, by mass")
            .listed("or this"),
-       key("small_mass", &P::smallMass, positive("kg"), "of a small disk").listed("required"),
-       key("large_mass", &P::largeMass, positive("kg"), "of a large disk").listed("required"),
-       key("density", &P::density, positive("kg/m^3"),
-           "instead of the masses: m = ρ π a² h, of disks of the cell's height")
+       key("small_mass", &P::smallMass, positive("kg"), "").listed("required"),
+       key("large_mass", &P::largeMass, positive("kg"), "").listed("required"),
+       key("density", &P::density, positive("kg/m^3"), "instead of the masses: m = ρ π a² h")
            .listed("–"),
        key("inertia_factor", &P::inertiaFactor, aboveZeroTo(1.0),
            "q in J = q m a²: 0.5 disk, 0.4 sphere"),
-       key("rotation", &P::rotation, any, "false: friction acts, but no disk spins"),
+       key("rotation", &P::rotation, any, "false: no disk spins, friction acts"),
        key("max_overlap", &P::maxOverlap, between(0.0, 1.0),
-           "largest overlap of a start, in units of `small_radius`"),
+           "largest of a start, in `small_radius`"),
        key("file", &P::file, ExistingFile{".h5"},
-           "a packing of your own, relative to this file; its numbers of disks apply"),
+           "your own packing, relative to this file; its numbers of disks apply"),
        key("small_material", &P::smallMaterial, any, "of `[[law.pairs]]`"),
        key("large_material", &P::largeMaterial, any,
            "likewise; disks of a file are of the nearer radius")});
@@ -139,22 +136,17 @@ const Section<PreparationInput>& preparationKeys() {
        .kinds = "couette, assembly",
        .commands = "compare plan lockstep identify baseline record effects cost stability",
        .note = "An assembly with `[average]` uses `packings` and `seed` only."},
-      {key("engine", &P::engine, any,
-           "engine that prepares packings, within `may_differ` and its settings")
+      {key("engine", &P::engine, any, "prepares packings, within `may_differ` and its settings")
            .listed("the in-house one"),
        key("packings", &P::packings, between(1, 10'000),
-           "packings of the first interim analysis of `compare`; fewer than 4 give no general "
-           "verdict")
+           "number at the first interim analysis; fewer than 4 give no general verdict")
            .usedBy("compare plan lockstep baseline effects cost"),
-       key("seed", &P::seed, between(0, mostSeed),
-           "of initial places and velocities; packing k draws from its stream k"),
+       key("seed", &P::seed, between(0, mostSeed), "packing k draws from stream k of it"),
        key("dilation", &P::dilation, above(1.0), "R_prepare/R_o"),
-       key("velocity", &P::velocity, atLeast(0.0, "m/s"), "rms of each component at the start"),
-       key("shrink_time", &P::shrinkTime, positive("s"),
-           "time in which the ring goes from R_prepare to R_o"),
-       key("rotations", &P::rotations, atLeast(0.0), "of the wheel, after that"),
-       key("dt", &P::dt, positive("s"), "time step of preparation, independent of `run.dt`")
-           .listed("that of the runs")});
+       key("velocity", &P::velocity, atLeast(0.0, "m/s"), "rms of components at the start"),
+       key("shrink_time", &P::shrinkTime, positive("s"), "from R_prepare to R_o"),
+       key("rotations", &P::rotations, atLeast(0.0), "after that"),
+       key("dt", &P::dt, positive("s"), "independent of `run.dt`").listed("that of the runs")});
   return section;
 }
 
@@ -165,21 +157,17 @@ const Section<AveragingInput>& averagingKeys() {
       "compare plan lockstep identify baseline effects cost stability average";
   static const Section<A> section(
       {.name = "averaging", .kinds = "couette"},
-      {key("rings", &A::rings, between(1, 10'000), "of equal width from R_i to R_o")
-           .usedBy(averaged),
+      {key("rings", &A::rings, between(1, 10'000), "of equal width, R_i to R_o").usedBy(averaged),
        key("method", &A::methods, Names(weightNames.begin(), weightNames.end()),
-           "one name or a list; reports show the first")
+           "one or a list; reports show the first")
            .usedBy(averaged),
-       key("line_width", &A::lineWidth, positive("d"), "kernel width w of the line methods")
+       key("line_width", &A::lineWidth, positive("d"), "w of the line methods")
            .usedBy("compare plan effects cost average baseline"),
-       key("settle_rotations", &A::settleRotations, atLeast(0.0),
-           "after the hand-over, not averaged")
-           .usedBy(run),
+       key("settle_rotations", &A::settleRotations, atLeast(0.0), "before averaging").usedBy(run),
        key("rotations", &A::rotations, positive(), "averaged").usedBy(run),
        key("snapshots_per_rotation", &A::snapshotsPerRotation, between(1, 1'000'000), "")
            .usedBy("compare plan effects cost baseline"),
-       key("confidence", &A::confidence, inside(0.0, 1.0), "of verdicts and error bars")
-           .usedBy(averaged)});
+       key("confidence", &A::confidence, inside(0.0, 1.0), "").usedBy(averaged)});
   return section;
 }
 
@@ -188,13 +176,12 @@ const Section<InterimSettings>& looksKeys() {
       {.name = "looks",
        .kinds = "couette, assembly",
        .commands = "compare plan",
-       .note = "`compare` adds packings until every endpoint is decided, with an interim analysis "
-               "after 1, 2, … times `preparation.packings` of them."},
+       .note = "`compare` adds packings until every endpoint is decided: an interim analysis after "
+               "1, 2, … times `preparation.packings`."},
       {key("count", &InterimSettings::count, between(1, 100),
-           "largest number of interim analyses; 1 where packings are files, or fewer than 4 at the "
-           "first"),
+           "most interim analyses; 1 for packing files, or fewer than 4 at the first"),
        key("budget", &InterimSettings::budget, positive("s"),
-           "none begins that would end later than this; `--budget` takes precedence")});
+           "none begins that would end later; `--budget` takes precedence")});
   return section;
 }
 
@@ -225,33 +212,33 @@ const Section<RunOptions>& runKeys() {
   static const Section<RunOptions> section(
       {.name = "run", .commands = users},
       {key("dt", &RunOptions::dt, positive("s"),
-           "time step of every engine without `[engines.NAME] dt`; required for a rigid law"),
+           "of engines without `[engines.NAME] dt`; required for a rigid law"),
        key("steps_per_contact", &RunOptions::stepsPerContact, atLeast(2.0),
-           "without `dt`: dt = t_c of the lightest pair / this (a collision has its own)"),
+           "without `dt`: t_c of the lightest pair / dt; not of collisions"),
        key("handover", &RunOptions::handover, Names{"cold", "warm"},
-           "`cold` drops tangential and bottom springs; `warm` is not supported yet"),
+           "`cold` drops tangential and bottom springs; `warm`: not yet"),
        special<RunOptions>({"may_differ", "", "[]", valuesOf(deviationNames()),
-                            "options and effects that engines may replace or lack; noted beside "
-                            "their figures. `conventions`: all that are no law of their own"},
+                            "what engines may replace or lack; noted beside figures. "
+                            "`conventions`: all options that are no law of their own"},
                            [](Reader& in, const std::string& key, RunOptions& run) {
                              in.read(key, run.mayDiffer, deviationNames());
                              nameConventions(run.mayDiffer);
                            }),
        key("precision", &RunOptions::precision, Names(precisionNames.begin(), precisionNames.end()),
-           "`float`: of engines that have it"),
+           "of engines that have it"),
        key("timeout", &RunOptions::timeout, timeouts,
-           "longest wait for an answer of an engine, doubled while it computes"),
+           "longest wait for an engine's answer, doubled while it computes"),
        key("mirrors", &RunOptions::mirrors, any,
-           "also run the in-house engine under each peer's conventions")
+           "run the in-house engine under each peer's conventions, too")
            .usedBy("compare plan collide"),
        key("energy_ledger", &RunOptions::energyLedger, any,
-           "energy by terms, where engines report them: columns `energy_…` of `series.csv`, and "
-           "the field `dissipation`")
+           "columns `energy_…` of `series.csv` and the field `dissipation`, of engines that report "
+           "terms")
            .usedBy("compare plan record stability effects cost"),
        key("keep_snapshots", &RunOptions::keepSnapshots, between(0, 1'000'000), "per run, in HDF5")
            .usedBy("compare plan effects cost"),
        key("keep_snapshots_of", &RunOptions::keepSnapshotsOf, between(1, 1'000'000),
-           "packings, from the first, whose snapshots are kept")
+           "packings, from the first")
            .usedBy("compare plan effects cost")});
   return section;
 }
@@ -260,27 +247,23 @@ const Section<Stability>& stabilityKeys() {
   Names measures;
   for (const StabilityMeasure& measure : stabilityMeasures()) measures.emplace_back(measure.name);
   static const Section<Stability> section(
-      {.name = "stability",
-       .commands = "stability",
-       .note = "Makes a hard case of any case. Measures: [above](#measures-of-hard-cases)."},
+      {.name = "stability", .commands = "stability", .note = "Makes a hard case of any case."},
       {need("tests", &Stability::tests, Sentence{"must say in a sentence what it tests"},
-            "what it tests, in a sentence"),
-       need("measure", &Stability::measure, measures, "what is measured"),
-       need("limit", &Stability::limit, atLeast(0.0), "up to this: stable")
+            "a sentence"),
+       need("measure", &Stability::measure, measures, ""),
+       need("limit", &Stability::limit, atLeast(0.0), "stable up to this")
            .listed("required", "the measure's"),
-       need("degraded", &Stability::degraded, atLeast(0.0),
-            "up to this: degraded; beyond: unstable")
+       need("degraded", &Stability::degraded, atLeast(0.0), "degraded up to this; unstable beyond")
            .listed("required", "the measure's"),
-       need("why", &Stability::why, Sentence{"must give the reason"}, "the reason for the limits"),
-       key("samples", &Stability::samples, between(1, 100'000),
-           "snapshots of the run, evenly spread"),
+       need("why", &Stability::why, Sentence{"must give the reason"}, "of the limits"),
+       key("samples", &Stability::samples, between(1, 100'000), "evenly spread"),
        key("settle", &Stability::settle, Range{.low = 0.0, .high = 1.0, .highOpen = true},
-           "share of the run before rest is required"),
+           "part of the run before rest is required"),
        key("stands", &Stability::stands, any,
-           "all stands from the start: if a body moves by more than half a diameter before "
-           "`settle`, rest is required from the start"),
-       key("quick", &Stability::quick, any, "part of `--quick`"),
-       key("long", &Stability::longRun, any, "only under `--long`")});
+           "all stands: once a body moves by half a diameter before `settle`, rest is required "
+           "from the start"),
+       key("quick", &Stability::quick, any, "of `--quick`"),
+       key("long", &Stability::longRun, any, "of `--long` only")});
   return section;
 }
 
@@ -304,19 +287,17 @@ std::vector<SectionInfo> cellSections() {
           {.name = "averaging.endpoints",
            .kinds = "couette",
            .commands = "compare plan baseline",
-           .note = "Largest difference of two engines that agree. These margins decide the "
-                   "verdicts of `compare`; an endpoint without one is not judged. `pressure` is "
-                   "compared by its ratio and takes `relative`, all others by their difference."},
+           .note = "Largest difference of two engines that agree: decides verdicts of `compare`. "
+                   "Without one an endpoint is not judged. `pressure` is compared by its ratio and "
+                   "takes `relative`, all others by their difference."},
           "ENDPOINT", "an endpoint (`crossgrain list endpoints`)", "of the reference's mean", true),
       looksKeys().info(),
-      marginSection(
-          {.name = "averaging.margins",
-           .kinds = "couette",
-           .commands = "compare plan effects",
-           .note =
-               "Largest difference of two engines in a ring, for its colour and for `effects`."},
-          "FIELD", "a field of `profiles.csv` (`crossgrain list fields`)",
-          "of the reference's mean", true)};
+      marginSection({.name = "averaging.margins",
+                     .kinds = "couette",
+                     .commands = "compare plan effects",
+                     .note = "Per ring, for colours and `effects`."},
+                    "FIELD", "a field of `profiles.csv` (`crossgrain list fields`)",
+                    "of the reference's mean", true)};
 }
 
 std::vector<SectionInfo> runSections() {
@@ -324,8 +305,7 @@ std::vector<SectionInfo> runSections() {
           {.name = "engines.NAME",
            .commands = runKeys().info().commands + " average",
            .keys = {{"SETTING", "the setting's", "the engine's", "",
-                     "of one engine: a boolean, a number or a string; `crossgrain engines` lists "
-                     "them, the engine checks them"}}},
+                     "boolean, number or string; `crossgrain engines` lists them"}}},
           stabilityKeys().info()};
 }
 

@@ -22,11 +22,11 @@ const Section<BoxInput<D>>& boxKeys() {
   static const Section<I> section(
       {.name = "assembly.box",
        .kinds = "assembly",
-       .note = "A cell with periodic directions. Along other directions it is no boundary."},
-      {need("low", &I::low, anyNumber("m"), "[x, y] of one corner; in space [x, y, z]"),
-       need("high", &I::high, anyNumber("m"), "of the other, beyond it"),
+       .note = "Along other directions it is no boundary."},
+      {need("low", &I::low, anyNumber("m"), "[x, y], in space [x, y, z]"),
+       need("high", &I::high, anyNumber("m"), "beyond it"),
        need("periodic", &I::along, D == 2 ? Names{"x", "y"} : Names{"x", "y", "z"},
-            "one direction or several: `[\"x\"]`; in space z, too")});
+            "one or several: `[\"x\"]`; in space z, too")});
   return section;
 }
 
@@ -70,11 +70,10 @@ const Section<StartInput<D>>& startKeys() {
        .kinds = "assembly",
        .note = "Disks of your own, in place of `[[assembly.disks]]`: "
                "[how](../cases/assembly/README.md#a-start-of-your-own)."},
-      {need("file", &I::files, ExistingFile{".csv"},
-            "one CSV or HDF5 file, or a list of different ones: each is a packing"),
+      {need("file", &I::files, ExistingFile{".csv"}, "CSV or HDF5, or a list: each is a packing"),
        special<I>({"shapes", "m", "–", "a table",
-                   "convex bodies by name, for rows of CSV files: `{ brick = { box = [0.2, 0.1] }, "
-                   "… }`, each as `shape` of `[[assembly.disks]]`"},
+                   "by name, for rows of CSV files: `{ brick = { box = [0.2, 0.1] }, … }`, as "
+                   "`shape` of `[[assembly.disks]]`"},
                   [](Reader& in, const std::string& key, I& start) {
                     Reader named = in.section(key);
                     for (const std::string& name : named.keys()) {
@@ -88,11 +87,10 @@ const Section<StartInput<D>>& startKeys() {
        key("density", &I::density, densities<D>(), densityMeaning)
            .listed("required where a file has no masses"),
        key("velocity_rms", &I::velocityRms, atLeast(0.0, "m/s"),
-           "normally distributed addition: makes `preparation.packings` packings of the files in "
+           "normally distributed, added: makes `preparation.packings` packings of the files in "
            "turn"),
-       key("material", &I::material, any,
-           "of its disks, from `[[law.pairs]]`, where their rows name none"),
-       key("fixed_material", &I::fixedMaterial, any, "of those that stand still")});
+       key("material", &I::material, any, "of disks whose rows name none"),
+       key("fixed_material", &I::fixedMaterial, any, "of disks that stand still")});
   return section;
 }
 
