@@ -43,7 +43,7 @@ const Section<EndpointInput>& endpointsKeys() {
        key("area", &Endpoint::area, positive("m^2"), "makes a stress of a wall's force")
            .listed("–"),
        key("per", &Endpoint::per, any, "divisor: a quantity of the same kind and unit"),
-       special<E>({"at", "–", "\"mean\"", "", "[reduction](#endpoints-of-assemblies)"},
+       special<E>({"at", "–", "\"mean\"", "", "reduction (Endpoints of assemblies)"},
                   [](Reader& in, const std::string& key, E&) { in.take(key); }),
        key("time", &E::time, atLeast(0.0, "s"), "instead of `at`: the value then").listed("–"),
        key("reaches", &E::reaches, anyNumber(), "instead of `at`: when it first has this value")

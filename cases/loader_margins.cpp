@@ -14,7 +14,7 @@ const Section<MarginInput>& marginKeys(bool shares) {
       Names names;
       for (const Scale& scale : scales()) names.emplace_back(scale.name);
       keys.push_back(key("share", &MarginInput::share, positive(),
-                         "of a scale of the case ([values](#margins)), rounded to two digits")
+                         "of a scale of the case (Margins), rounded to two digits")
                          .listed(standard));
       keys.push_back(
           key("of", &MarginInput::of, names, "in the unit of the quantity").listed("with share"));

@@ -256,7 +256,7 @@ const Section<Stability>& stabilityKeys() {
        need("degraded", &Stability::degraded, atLeast(0.0), "degraded up to this; unstable beyond")
            .listed("required", "the measure's"),
        need("why", &Stability::why, Sentence{"must give the reason"}, "of the limits"),
-       key("samples", &Stability::samples, between(1, 100'000), "evenly spread"),
+       key("samples", &Stability::samples, between(1, 100'000), "snapshots, evenly spread"),
        key("settle", &Stability::settle, Range{.low = 0.0, .high = 1.0, .highOpen = true},
            "part of the run before rest is required"),
        key("stands", &Stability::stands, any,
