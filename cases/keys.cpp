@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <span>
@@ -39,6 +38,7 @@ std::string orItsPlace(const std::string& text, const std::string& section, Firs
   return isNew ? text : "as in " + first->second;
 }
 
+/// Their names, as values of a key.
 template <typename Named>
 std::string namesOfAll(std::span<const Named> all) {
   Names names;
@@ -53,7 +53,8 @@ std::string valuesWithUnit(const KeyInfo& key) {
     const bool ofLaw = key.values.starts_with(options);
     return (ofLaw ? "options of `[law]`" + key.values.substr(options.size()) : key.values) + unit;
   }
-  return key.values + (std::isalpha(key.values.front()) != 0 ? ", " : " ") + unit;
+  const bool isRange = std::string_view(">[(").find(key.values.front()) != std::string::npos;
+  return key.values + (isRange ? " " : ", ") + unit;
 }
 
 /// A row of a section's table.
@@ -179,8 +180,7 @@ const std::vector<SectionInfo>& caseSections() {
 std::string keysInMarkdown() {
   std::string page =
       "## Keys\nNo default: the key is \"required\", or optional where the cell is empty. A key "
-      "that "
-      "is not listed does not exist. `crossgrain list keys` prints these tables.\n\n";
+      "that is not listed does not exist. `crossgrain list keys` prints these tables.\n\n";
   FirstPlaces places = {{namesOfAll(stabilityMeasures()), "[the table](#measures-of-hard-cases)"}};
   for (const SectionInfo& section : caseSections()) {
     const std::string name = fmt::format("`{}{}{}`", section.isList ? "[[" : "[", section.name,
