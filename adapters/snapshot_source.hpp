@@ -44,6 +44,8 @@ class SnapshotSourceOf {
   /// Data that the files lack and the consequence, a sentence each; complete after the last
   /// snapshot.
   virtual std::vector<std::string> remarks() const { return {}; }
+  /// Whether forces were read that are not those of the scene's law; a remark says where.
+  virtual bool hasOtherLaw() const { return false; }
 };
 using SnapshotSource = SnapshotSourceOf<2>;
 

@@ -71,10 +71,13 @@ struct FlowRun {
   /// Absent where a report does not show them; then it shows no distributions and picture either.
   std::optional<RunSeries> series;
   std::vector<Distribution> distributions;
-  std::optional<ScenePicture> picture;        ///< of the first packing
+  std::optional<ScenePicture> picture;  ///< of the first packing
+  std::vector<ScenePicture>
+      strip;  ///< likewise, of the reference: times from first to last, without contacts
   std::vector<EndpointError> endpointErrors;  ///< where runs of files are compared
   std::string files;                          ///< of a run of files: their names
   std::vector<std::string> remarks;           ///< likewise: what they lack and what that costs
+  bool hasOtherLaw = false;                   ///< likewise: forces are not those of the case's law
 
   bool finished() const { return status == Status::finished; }
   /// Whether it is averaged from files, not run here.
@@ -97,9 +100,11 @@ struct FlowRun {
     io.present("series", series);
     io.when(series.has_value(), "distributions", distributions);
     io.when(effective && series, "picture", picture);
+    io.when(!strip.empty(), "strip", strip);
     io.when(!endpointErrors.empty(), "endpoint_errors", endpointErrors);
     io.when(!files.empty(), "files", files);
     io.when(!remarks.empty(), "remarks", remarks);
+    io.when(hasOtherLaw, "other_law", hasOtherLaw);
   }
 };
 

@@ -79,6 +79,7 @@ class FileSnapshotsOf : public SnapshotSourceOf<D> {
   std::optional<SnapshotOf<D>> next() override;
   double progress() const override { return reader_->progress(); }
   std::vector<std::string> remarks() const override;
+  bool hasOtherLaw() const override { return lawDiffers_; }
 
  private:
   std::optional<FileFrame> readWithin();

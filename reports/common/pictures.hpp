@@ -55,8 +55,8 @@ struct Drawing {
 
 /// One drawing of a cell at one instant.
 struct Picture {
-  enum class Shows { scene, origins, forces, worst };
-  std::string name;  ///< of its files: scene_1_ENGINE, origins_…, forces_…, worst_1_ENGINE
+  enum class Shows { scene, strip, origins, forces, worst };
+  std::string name;  ///< of its files: scene_1_ENGINE, strip_…, origins_…, forces_…, worst_1_ENGINE
   std::string engine;
   std::string title;
   std::string scale;  ///< the drawing's scale in words; may be empty
@@ -67,6 +67,9 @@ struct Picture {
 /// Disks coloured by the root of their speed, from dark to bright at `fastest` [m/s], or by their
 /// size where no speed is known (fastest 0).
 Drawing sceneDrawing(const ScenePicture& picture, double fastest);
+
+/// Scenes side by side in their order, on one scale of colours.
+Drawing stripDrawing(const std::vector<ScenePicture>& pictures, double fastest);
 
 /// The speed that 98 % of the picture's disks are below [m/s]; 0 where no speed is known.
 double fastestOf(const ScenePicture& picture);

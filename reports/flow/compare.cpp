@@ -123,6 +123,10 @@ void addPictures(Report& report, const CompareResults& results, const Engines& e
   const std::string instant = instantOf(results, engines);
   Blocks& blocks = report.section("pictures", "The scene", "Scene").blocks;
   blocks = {Paragraph{sceneWords(results, *first, fastestOf(engines), instant)}, std::move(scenes)};
+  if (Drawings strip = drawingsOf(report.pictures, Picture::Shows::strip); !strip.names.empty()) {
+    strip.side = false;
+    blocks.push_back(std::move(strip));
+  }
   if (!others.names.empty()) blocks.push_back(Details{"Other engines", {std::move(others)}});
   if (Drawings origins = drawingsOf(report.pictures, Picture::Shows::origins);
       !origins.names.empty())

@@ -105,6 +105,23 @@ const LockstepRow* differingRow(const CompareResults& results, const std::string
   });
 }
 
+/// Of how many of its runs, averaged from files, the forces are not those of the case's law.
+std::ptrdiff_t runsOfOtherLaw(const EngineRuns& engine) {
+  return std::ranges::count_if(engine.finished, &FlowRun::hasOtherLaw);
+}
+
+std::string whoseFilesHaveAnotherLaw(const Engines& engines) {
+  Names parts;
+  for (const EngineRuns& engine : engines)
+    if (const auto others = runsOfOtherLaw(engine); others > 0)
+      parts.push_back(
+          fmt::format("{} of {} runs of {}", others, engine.finished.size(), engine.name));
+  return parts.empty()
+             ? ""
+             : fmt::format("Forces in {} are not those of the case's law: the notes say where.",
+                           listedShortly(parts, mostNames));
+}
+
 /// Engines that do not have their own law, and those whose differences nothing measures.
 std::string causesOfDifferences(const CompareResults& results, const Engines& engines) {
   Names parts;
@@ -244,7 +261,14 @@ std::string nextStep(const CompareResults& results, const Engines& engines) {
   return "Nothing is left to decide at these margins.";
 }
 
-OverviewCell lockstepOf(const CompareResults& results, const EngineRow& engine) {
+OverviewCell lawOf(const CompareResults& results, const EngineRuns& engine) {
+  if (const auto others = runsOfOtherLaw(engine); others > 0)
+    return {Verdict::modelDifference,
+            {},
+            "",
+            fmt::format("in {} of {} runs", others, engine.finished.size()),
+            "forces are not those of the case's law",
+            "notes"};
   static const LockstepFindings none;
   const LockstepFindings& findings = results.lockstep ? *results.lockstep : none;
   OverviewCell cell = lockstepCell(findBy(findings.rows, engine.name, &LockstepRow::engine),
@@ -359,7 +383,7 @@ Names compareConclusion(const CompareResults& results) {
   if (engines.empty()) return {};
   // Where nothing was judged, no engine is said to agree, or to be undecided.
   Names sentences = {results.nothingJudged ? std::string() : whoAgrees(results, engines),
-                     causesOfDifferences(results, engines)};
+                     whoseFilesHaveAnotherLaw(engines), causesOfDifferences(results, engines)};
   std::ranges::move(causeSentences(results, 2), std::back_inserter(sentences));
   sentences.push_back(nextStep(results, engines));
   return nonEmpty(std::move(sentences));
@@ -450,7 +474,7 @@ Overview compareOverview(const CompareResults& results) {
   for (const EngineRuns& engine : engineRuns(results))
     overview.rows.push_back({engine.name,
                              true,
-                             {lockstepOf(results, engine), averagesOf(results, engine),
+                             {lawOf(results, engine), averagesOf(results, engine),
                               costOfEngine(engine), failedRunsOf(results, engine)}});
   overview.conclusion = compareConclusion(results);
   return overview;

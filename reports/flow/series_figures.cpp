@@ -406,6 +406,23 @@ std::vector<Figure> compareFigures(const CompareResults& results) {
   return figures;
 }
 
+/// How the reference's first packing moves, where results have that.
+std::optional<Picture> stripOf(const Engines& engines, double fastest) {
+  for (const EngineRuns& engine : engines)
+    for (const FlowRun* run : engine.runs) {
+      if (run->strip.size() < 2) continue;
+      Names times;
+      for (const ScenePicture& picture : run->strip) times.push_back(readable(picture.time));
+      return Picture{"strip_1_" + fileWord(engine.name),
+                     engine.name,
+                     engine.name + ": as it moves",
+                     fmt::format("From left to right at t = {} s.", listed(times)),
+                     Picture::Shows::strip,
+                     stripDrawing(run->strip, fastest)};
+    }
+  return std::nullopt;
+}
+
 std::vector<Picture> comparePictures(const CompareResults& results) {
   std::vector<Picture> scenes, origins, forces;
   const Engines engines = engineRuns(results);
@@ -443,6 +460,7 @@ std::vector<Picture> comparePictures(const CompareResults& results) {
     if (isAlike(picture)) alike.push_back(&picture);
   for (const Picture* picture : alike) all.add(picture->drawing.window);
   for (Picture* picture : alike) picture->drawing.window = all;
+  if (auto strip = stripOf(engines, fastest)) scenes.push_back(std::move(*strip));
   return scenes;
 }
 

@@ -333,6 +333,28 @@ Drawing sceneDrawing(const ScenePicture& picture, double fastest) {
   return bodiesDrawing(picture, disks);
 }
 
+Drawing stripDrawing(const std::vector<ScenePicture>& pictures, double fastest) {
+  constexpr double pitch = 1.06;  // of the widest
+  Drawing strip;
+  std::vector<Drawing> frames;
+  for (const ScenePicture& picture : pictures)
+    strip.window.add(frames.emplace_back(sceneDrawing(picture, fastest)).window);
+  const double step = pitch * strip.window.width();
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    const double right = static_cast<double>(k) * step;
+    for (StrokeGroup& group : frames[k].groups) {
+      for (Stroke& stroke : group.strokes) stroke.x1 += right, stroke.x2 += right;
+      for (std::vector<double>& outline : group.outlines)
+        for (std::size_t c = 0; c < outline.size(); c += 2) outline[c] += right;
+    }
+    for (Ball& ball : frames[k].balls) ball.x += right;
+    std::ranges::move(frames[k].groups, std::back_inserter(strip.groups));
+    std::ranges::move(frames[k].balls, std::back_inserter(strip.balls));
+  }
+  if (!frames.empty()) strip.window.right += step * static_cast<double>(frames.size() - 1);
+  return strip;
+}
+
 Drawing originsDrawing(const ScenePicture& picture, double inner, double diameter) {
   auto disks = disksOf(picture);
   double reach = 0.0;
@@ -445,8 +467,9 @@ std::string toPdf(const Drawing& drawing, double size) {
 }
 
 void writePicture(const Picture& picture, const std::filesystem::path& dir) {
-  writeFile(dir / (picture.name + ".svg"), toSvg(picture.drawing, pictureSize, picture.title));
-  writeFile(dir / (picture.name + ".pdf"), toPdf(picture.drawing, pictureSize));
+  const double size = picture.shows == Picture::Shows::strip ? 2.0 * pictureSize : pictureSize;
+  writeFile(dir / (picture.name + ".svg"), toSvg(picture.drawing, size, picture.title));
+  writeFile(dir / (picture.name + ".pdf"), toPdf(picture.drawing, size));
 }
 
 }  // namespace crossgrain::reports

@@ -330,7 +330,8 @@ CachedTask<FlowRun>::Outcome Campaign::runOne(const Variant& variant, int packin
                         store_.scratch(name),
                         store_.snapshots(name),
                         store_.unfinished(name),
-                        Json(keyOf(variant.engine, packing, partOf(variant))).dump()};
+                        Json(keyOf(variant.engine, packing, partOf(variant))).dump(),
+                        variant.engine == 0 && !cellOf(setup_)};
     run = inDimensionOf(setup_, [&]<int D>() { return runFlow<D>(task, progress); });
     run.without = variant.without;
     return {run, true, fmt::format("{:.1f} s", run.stats->wallSeconds)};

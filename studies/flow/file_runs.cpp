@@ -122,6 +122,7 @@ AveragedRun averagedRun(const Case& setup, const SnapshotRun& files, SnapshotSou
   averages->describe(EffectiveParameters{}, averaged.run);
   averaged.averages = std::move(averages);
   averaged.run.remarks = source.remarks();
+  averaged.run.hasOtherLaw = source.hasOtherLaw();
   // Of our own files of a cell all snapshots are averaged, whenever they are.
   const bool timed = !cellOf(setup) || !files.format.empty();
   if (std::string gap = covered.gap(); timed && !gap.empty())

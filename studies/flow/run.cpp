@@ -31,6 +31,28 @@ std::vector<Weight> weightsOf(const Case& setup, std::span<const std::string> na
   return weights;
 }
 
+namespace {
+
+/// Five of the snapshots 1 … samples, the first and the last among them.
+bool isOfStrip(int taken, int samples) {
+  constexpr int frames = 5;
+  for (int k = 0; k < frames; ++k)
+    if (taken == 1 + k * (samples - 1) / (frames - 1)) return true;
+  return false;
+}
+
+/// What moves, and the walls.
+template <int D>
+ScenePicture stripPicture(const SceneOf<D>& scene, const SnapshotOf<D>& now) {
+  ScenePicture picture = scenePicture(scene, now, NAN);
+  picture.startR = picture.startPhi = {};
+  picture.contactI = picture.contactJ = {};
+  picture.contactForce = {};
+  return picture;
+}
+
+}  // namespace
+
 template <int D>
 FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progress) {
   const Case& setup = *task.setup;
@@ -81,6 +103,8 @@ FlowRun runFlow(const FlowTask& task, const std::function<void(double)>& progres
     kept.offer(snapshot, ++taken);
     if (task.packingIndex == 0 && !run.picture && snapshot.positionTime >= pictureTime - interval)
       run.picture = scenePicture(scene, snapshot, snapshot.positionTime / flowUnit(setup));
+    if (task.keepsStrip && task.packingIndex == 0 && isOfStrip(taken, samples))
+      run.strip.push_back(stripPicture(scene, snapshot));
   };
   for (std::size_t k = 0; before && k < before->snapshots; ++k) take(unfinished.snapshot(k));
   while (taken < samples) {

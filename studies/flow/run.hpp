@@ -31,6 +31,7 @@ struct FlowTask {
   std::filesystem::path snapshots;   ///< HDF5 file of kept snapshots
   std::filesystem::path unfinished;  ///< folder of what is kept while it runs
   std::string key;                   ///< everything that the run depends on
+  bool keepsStrip = false;           ///< whether the first packing is drawn as it moves
 };
 
 /// Lets the packing settle and averages over the case's rotations, or the time of its [average].

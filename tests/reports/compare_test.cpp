@@ -75,6 +75,24 @@ TEST(CompareOverview, Disagreement_NamesTheLawAsCauseOnlyWhereThatIsShown) {
       "the tangential damping).");
 }
 
+TEST(CompareOverview, FilesOfAnotherLaw_AreSaidInTheMatrixAndTheConclusion) {
+  CompareResults results = disagreeing();
+  const std::string before = fmt::format("{}", fmt::join(compareConclusion(results), " "));
+  EXPECT_FALSE(has(before, "not those of the case's law"));
+  for (const bool another : {true, false}) {
+    FlowRun run;
+    run.engine = "theirs";
+    run.packing = another ? 0 : 1;
+    run.hasOtherLaw = another;
+    results.runs.push_back(run);
+  }
+  const OverviewCell cell = rowNamed(compareOverview(results), "theirs").cells[0];
+  EXPECT_EQ(shown(cell), "model_difference in 1 of 2 runs");
+  EXPECT_EQ(
+      compareConclusion(results)[1],
+      "Forces in 1 of 2 runs of theirs are not those of the case's law: the notes say where.");
+}
+
 CausePart part(double mean, double half) {
   return {mean, mean - half, mean + half};
 }

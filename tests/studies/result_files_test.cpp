@@ -747,7 +747,10 @@ TEST(PlaneSnapshots, ForcesOfTheShownOverlaps_AreOfTheLaw) {
     if (!shown) contacts.overlap.clear();
     PlaneSnapshots source = snapshotsOf({frame}, targetOf(setup));
     source.next();
-    return lines(source.remarks()).find("not those of the case's law") != std::string::npos;
+    const bool remarked =
+        lines(source.remarks()).find("not those of the case's law") != std::string::npos;
+    EXPECT_EQ(source.hasOtherLaw(), remarked);
+    return remarked;
   };
   // f = k_n √R₁₂ δ^1.5, with R₁₂ = 0.5 m.
   const auto byLaw = [](double overlap) { return 1e6 * std::sqrt(0.5) * std::pow(overlap, 1.5); };
