@@ -49,16 +49,9 @@ struct AgreementRing {
   Verdict verdict = Verdict::undecided;
 
   void fields(auto& io) {
-    io("ring", ring);
-    io("difference", difference);
+    FIELDS(io, ring, difference, low, high, margin, detects, scale, packings);
     io("stderr", standardError);
-    io("low", low);
-    io("high", high);
-    io("margin", margin);
-    io("detects", detects);
     io("within_share", withinFraction);
-    io("scale", scale);
-    io("packings", packings);
     io("verdict", verdict, agreementNames);
   }
 };
@@ -79,14 +72,9 @@ struct AgreementRow {
   void fields(auto& io) {
     io("a", a, aName);
     io("b", b, aName);
-    io("kind", kind);
+    FIELDS(io, kind, margin, marginRelative, marginWhy, detects, rings);
     io("field", field, aField);
-    io("margin", margin);
-    io("margin_relative", marginRelative);
-    io("margin_why", marginWhy);
     io("verdict", verdict, agreementNames);
-    io("detects", detects);
-    io("rings", rings);
   }
 };
 
@@ -95,10 +83,7 @@ struct NothingJudged {
   std::string reason;      ///< ends the line "nothing was judged: …"
   bool byRequest = false;  ///< one engine: there was nothing to compare it with
 
-  void fields(auto& io) {
-    io("reason", reason);
-    io("by_request", byRequest);
-  }
+  void fields(auto& io) { FIELDS(io, reason, byRequest); }
 };
 
 }  // namespace crossgrain::inline results

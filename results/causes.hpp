@@ -22,12 +22,7 @@ struct CauseName {
   bool declared = true;
 
   bool operator==(const CauseName&) const = default;
-  void fields(auto& io) {
-    io("name", name);
-    io("from", from);
-    io("to", to);
-    io("declared", declared);
-  }
+  void fields(auto& io) { FIELDS(io, name, from, to, declared); }
 };
 
 /// Which mixtures ran.
@@ -46,11 +41,7 @@ struct Interaction {
   std::string one, other;
   double share = 0.0;  ///< largest over all numbers, in the largest difference of the laws [-]
 
-  void fields(auto& io) {
-    io("one", one);
-    io("other", other);
-    io("share", share);
-  }
+  void fields(auto& io) { FIELDS(io, one, other, share); }
 };
 
 /// How far a set of differences, the largest first, brings the reference to the peer.
@@ -58,10 +49,7 @@ struct CauseStep {
   std::string name;   ///< that is taken besides those before it
   double left = 1.0;  ///< of the distance between both laws, over all numbers [-]
 
-  void fields(auto& io) {
-    io("name", name);
-    io("left", left);
-  }
+  void fields(auto& io) { FIELDS(io, name, left); }
 };
 
 /// Findings that hold for all numbers of a pair.
@@ -78,14 +66,10 @@ struct Causes {
   double cpuSeconds = 0.0;  ///< that they took
 
   void fields(auto& io) {
-    io("differences", differences);
+    FIELDS(io, differences, mixtures, interactions, reason, runs);
     io.when(!undeclared.empty(), "undeclared", undeclared);
-    io("mixtures", mixtures);
-    io("interactions", interactions);
     io.when(!path.empty(), "path", path);
     io("remainder_is", remainder);
-    io("reason", reason);
-    io("runs", runs);
     io("cpu_s", cpuSeconds);
   }
 };
@@ -98,13 +82,7 @@ struct QuantityCauses {
   Numbers interaction, remainder;
   std::optional<double> limit;  ///< the case's margin of it; absent: it has none
 
-  void fields(auto& io) {
-    io("whole", whole);
-    io("parts", parts);
-    io("interaction", interaction);
-    io("remainder", remainder);
-    io("limit", limit);
-  }
+  void fields(auto& io) { FIELDS(io, whole, parts, interaction, remainder, limit); }
 };
 
 /// A mean over packings with the interval of the verdict.
@@ -114,11 +92,7 @@ struct CausePart {
   /// Whether its interval holds no zero.
   bool isSeen() const { return low && high && (*low > 0.0 || *high < 0.0); }
 
-  void fields(auto& io) {
-    io("mean", mean);
-    io("low", low);
-    io("high", high);
-  }
+  void fields(auto& io) { FIELDS(io, mean, low, high); }
 };
 
 /// Difference of one endpoint between two engines, or of a field in one bin, b less a, and its
@@ -135,11 +109,7 @@ struct EndpointCauses {
     io("endpoint", endpoint, aName);
     io("unit", unit, aUnit);
     io.present("bin", bin);
-    io("packings", packings);
-    io("whole", whole);
-    io("parts", parts);
-    io("interaction", interaction);
-    io("remainder", remainder);
+    FIELDS(io, packings, whole, parts, interaction, remainder);
   }
 };
 

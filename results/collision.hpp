@@ -41,19 +41,15 @@ struct CollisionCurve {
   /// Kept by itself, with the others of its engine and variant, as soon as it is there.
   void fields(auto& io) {
     io("engine", engine, aName);
-    io("dt", dt);
-    io("steps_per_contact", stepsPerContact);
+    FIELDS(io, dt, stepsPerContact);
     std::pair how(status, allParted());
     io("status", how, sweepStatusNames);
     status = how.first;
     io("reason", reason);
     io("realised", effective);
     io.present("stats", stats);
-    io("points", points);
-    io("score", score);
-    io("declared", declared);
-    io.present("own_scheme", ownScheme);
-    io.present("causes", causes);
+    FIELDS(io, points, score, declared);
+    PRESENT_FIELDS(io, ownScheme, causes);
   }
 };
 
@@ -103,13 +99,7 @@ struct ConvexSweep {
   /// Of each point of all curves, a name of impactKindNames; where hypotheses end in two, both.
   std::vector<std::string> kinds;
 
-  void fields(auto& io) {
-    io("bodies", bodies);
-    io("axis", axis);
-    io("poisson", poisson);
-    io("stronge", stronge);
-    io("kinds", kinds);
-  }
+  void fields(auto& io) { FIELDS(io, bodies, axis, poisson, stronge, kinds); }
 };
 
 /// Ψ_f = −e_t0 Ψ_i of a rigid law while it sticks.
@@ -138,19 +128,10 @@ struct CollisionVariant {
 
   void fields(auto& io) {
     io("case", name, aName);
-    io("variant", variant);
-    io("law", law);
-    io.present("effects", effects);
+    FIELDS(io, variant, law, sticking, slidingConstant, oracle, oracleReason, reference, noLimit,
+           curves);
+    PRESENT_FIELDS(io, effects, space, convex);
     io("e_n_closed", closedEn);
-    io("sticking", sticking);
-    io("sliding_constant", slidingConstant);
-    io("oracle", oracle);
-    io("oracle_reason", oracleReason);
-    io.present("space", space);
-    io("reference", reference);
-    io("no_limit", noLimit);
-    io.present("convex", convex);
-    io("curves", curves);
   }
 };
 
@@ -164,9 +145,7 @@ struct CollideResults {
   void fields(auto& io) {
     head.fields(io);
     io.present("elapsed_s", elapsed);
-    io("engines", engines);
-    io("variants", variants);
-    io("orders", orders);
+    FIELDS(io, engines, variants, orders);
   }
 };
 

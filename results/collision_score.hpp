@@ -123,12 +123,7 @@ struct QuantityScore {
   std::optional<std::string> why;  ///< of the limit
 
   void fields(auto& io) {
-    io("max", max);
-    io("rms", rms);
-    io("unit", unit);
-    io("unit_is", unitIs);
-    io("limit", limit);
-    io("held", held);
+    FIELDS(io, max, rms, unit, unitIs, limit, held);
     io.present("why", why);
   }
 };
@@ -193,12 +188,7 @@ struct DeclaredScore {
   CurveScore score;
   std::string oracleReason;  ///< why there is no oracle of it, or not everywhere
 
-  void fields(auto& io) {
-    io("law", law);
-    io("reference", reference);
-    io("score", score);
-    io("oracle_reason", oracleReason);
-  }
+  void fields(auto& io) { FIELDS(io, law, reference, score, oracleReason); }
 };
 
 /// Causes of what a curve differs by from the in-house engine's under the scene's law.
@@ -222,14 +212,7 @@ struct SchemeScore {
   std::optional<bool> held;
   std::string reason;  ///< why there is none, or it was not judged
 
-  void fields(auto& io) {
-    io("scheme", scheme);
-    io("position", position);
-    io("velocity", velocity);
-    io("limit", limit);
-    io("held", held);
-    io("reason", reason);
-  }
+  void fields(auto& io) { FIELDS(io, scheme, position, velocity, limit, held, reason); }
 };
 
 /// An order of convergence p, error ∝ dt^p.
@@ -253,8 +236,7 @@ struct ConvergenceOrder {
   void fields(auto& io) {
     io("engine", engine, aName);
     io("case", name, aName);
-    io("variant", variant);
-    io("error_at", errorAt);
+    FIELDS(io, variant, errorAt);
     io("quantities", of);
     std::optional<double> ofPsi, error;
     if (const auto& psi = of[QuantityId::psiF]) {

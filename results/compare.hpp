@@ -27,9 +27,8 @@ struct FlowStudy : FlowFrame {
   void fields(auto& io) {
     FlowFrame::fields(io);
     io.present("elapsed_s", elapsed);
-    io("engines", engines);
+    FIELDS(io, engines, runs);
     io.when(head.kind != kindAverage, "packings", packings);
-    io("runs", runs);
   }
 };
 

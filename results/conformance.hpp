@@ -43,6 +43,13 @@ struct ConformanceRow {
   double seconds = 0.0;    ///< wall time [s]
   /// Subject, "free motion"; with others of that it passes or fails. Empty of other parts.
   std::string about = {};
+
+  void fields(auto& io) {
+    FIELDS(io, part, what, detail, faults, cause, about);
+    io("check", name);
+    io("outcome", outcome, checkNames);
+    io("wall_s", seconds);
+  }
 };
 
 /// Share of the declared capabilities that has to be examined, or nothing is said of an engine by
@@ -63,6 +70,14 @@ struct ConformanceResults {
   std::optional<double> partExamined() const;
 
   std::size_t count(CheckOutcome outcome) const;
+
+  void fields(auto& io) {
+    head.fields(io);
+    io.present("elapsed_s", elapsed);
+    FIELDS(io, engine, cause, notExamined, atDefaults);
+    io("checks", rows);
+    io.present("declared", declared);
+  }
 };
 
 }  // namespace crossgrain::inline results

@@ -64,14 +64,14 @@ struct CostTime {
     const double value = time().value_or(std::numeric_limits<double>::infinity());
     return {value, timeLow.value_or(value), timeHigh.value_or(value)};
   }
-};
 
-void timeFields(auto& io, CostTime& time) {
-  io("wall_s", time.wallSeconds);
-  io("cpu_s", time.cpuSeconds);
-  io("time_low_s", time.timeLow);
-  io("time_high_s", time.timeHigh);
-}
+  void timeFields(auto& io) {
+    io("wall_s", wallSeconds);
+    io("cpu_s", cpuSeconds);
+    io("time_low_s", timeLow);
+    io("time_high_s", timeHigh);
+  }
+};
 
 /// Cost and error of one setting of one engine, in one kind of error and one measure:
 /// a point of a work–precision plot, a row of cost.csv.
@@ -123,35 +123,27 @@ struct CostPoint : CostTime {
     return mayBeChance() ? high() : *error;
   }
 
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("knob", knob, aKnob);
+    FIELDS(io, setting, fragment, stepsPerContact, error, statistical, systematic, referenceError,
+           steps, contactEvaluations, reason);
+    io("error_kind", kind);
+    io("measure", measure, aName);
+    io("dt_s", dt);
+    io("low", intervalLow);
+    io("high", intervalHigh);
+    io.present("worst", worst);
+    timeFields(io);
+    io("status", status, costStatusNames);
+  }
+
  private:
   double uncertainty() const {
     return saysNothing() ? std::numeric_limits<double>::infinity()
                          : statistical.value_or(0.0) + referenceError.value_or(0.0);
   }
 };
-
-void fields(auto& io, CostPoint& point) {
-  io("engine", point.engine, aName);
-  io("knob", point.knob, aKnob);
-  io("setting", point.setting);
-  io("fragment", point.fragment);
-  io("error_kind", point.kind);
-  io("measure", point.measure, aName);
-  io("dt_s", point.dt);
-  io("steps_per_contact", point.stepsPerContact);
-  io("error", point.error);
-  io("statistical", point.statistical);
-  io("systematic", point.systematic);
-  io("reference_error", point.referenceError);
-  io("low", point.intervalLow);
-  io("high", point.intervalHigh);
-  io.present("worst", point.worst);
-  timeFields(io, point);
-  io("steps", point.steps);
-  io("contact_evaluations", point.contactEvaluations);
-  io("status", point.status, costStatusNames);
-  io("reason", point.reason);
-}
 
 /// Measures exist twice: against the case's law, and against the engine's own limit of small steps,
 /// whose law may be another: "psi_f" and "psi_f_own".
@@ -174,15 +166,13 @@ struct CostReference {
   std::string engine, setting;
   std::optional<double> error = {};  ///< of its own, in the unit of the points' errors
   std::string note;
-};
 
-void fields(auto& io, CostReference& reference) {
-  io("error_kind", reference.kind);
-  io("engine", reference.engine, aName);
-  io("setting", reference.setting);
-  io("error", reference.error);
-  io("note", reference.note);
-}
+  void fields(auto& io) {
+    io("error_kind", kind);
+    io("engine", engine, aName);
+    FIELDS(io, setting, error, note);
+  }
+};
 
 /// How far an engine's own limit of small steps lies from what the case's law gives: no time step
 /// lessens it. In the unit of the points' errors.
@@ -191,16 +181,14 @@ struct CostModel {
   CostKind kind = CostKind::collision;
   std::string measure;
   double error = 0.0, low = 0.0, high = 0.0;  ///< and between which it lies
-};
 
-void fields(auto& io, CostModel& model) {
-  io("engine", model.engine, aName);
-  io("error_kind", model.kind);
-  io("measure", model.measure, aName);
-  io("error", model.error);
-  io("low", model.low);
-  io("high", model.high);
-}
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("error_kind", kind);
+    io("measure", measure, aName);
+    FIELDS(io, error, low, high);
+  }
+};
 
 /// The case's margin of an endpoint, in the unit of its points' errors.
 struct CostMargin {
@@ -214,8 +202,7 @@ void fields(auto& io, CostMargin& margin) {
 }
 
 void fields(auto& io, PairImpacts& impacts) {
-  io("pair", impacts.pair);
-  io("contacts", impacts.contacts);
+  FIELDS(io, impacts.pair, impacts.contacts);
   io("median_speed", impacts.median);
   io("fast_speed", impacts.fast);
   for (const int side : {0, 1}) {
@@ -233,13 +220,9 @@ struct SceneImpacts {
   std::vector<PairImpacts> pairs;
   double rmsSpeed = 0.0;  ///< of the bodies that move [m/s]
   double seconds = 0.0;   ///< of the runs together [s]
-};
 
-void fields(auto& io, SceneImpacts& impacts) {
-  io("pairs", impacts.pairs);
-  io("rms_speed", impacts.rmsSpeed);
-  io("seconds", impacts.seconds);
-}
+  void fields(auto& io) { FIELDS(io, pairs, rmsSpeed, seconds); }
+};
 
 /// Between which an engine's largest stable step lies, by the runs of the case's time steps.
 struct LargestStep {
@@ -249,49 +232,49 @@ struct LargestStep {
   std::optional<double> stable;       ///< the largest that is stable as all smaller ones are [s]
   std::optional<double> unstable;     ///< the smallest that is not; absent: none was found [s]
   std::optional<double> contactTime;  ///< t_c that the steps are counted in [s]
-};
 
-void fields(auto& io, LargestStep& step) {
-  io("engine", step.engine, aName);
-  io("error_kind", step.kind);
-  io("stable_s", step.stable);
-  io("unstable_s", step.unstable);
-  io("contact_time_s", step.contactTime);
-}
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("error_kind", kind);
+    io("stable_s", stable);
+    io("unstable_s", unstable);
+    io("contact_time_s", contactTime);
+  }
+};
 
 /// An engine of which no endpoint was measured, as the budget had no room for it.
 struct MissingAnswer {
   std::string engine;
   double budget = 0.0;  ///< with which the same command has room for it [s]
-};
 
-void fields(auto& io, MissingAnswer& missing) {
-  io("engine", missing.engine, aName);
-  io("budget_s", missing.budget);
-}
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("budget_s", budget);
+  }
+};
 
 /// Time before the first step [s].
 struct Startup {
   std::string engine;
   double start = 0.0, load = 0.0;
-};
 
-void fields(auto& io, Startup& startup) {
-  io("engine", startup.engine, aName);
-  io("start_s", startup.start);
-  io("load_s", startup.load);
-}
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("start_s", start);
+    io("load_s", load);
+  }
+};
 
 /// A setting whose time cannot be distinguished from that of another one.
 struct TiedSetting {
   std::string knob, setting;
   bool operator==(const TiedSetting&) const = default;
-};
 
-void fields(auto& io, TiedSetting& tied) {
-  io("knob", tied.knob, aKnob);
-  io("setting", tied.setting);
-}
+  void fields(auto& io) {
+    io("knob", knob, aKnob);
+    io("setting", setting);
+  }
+};
 
 /// The points of one kind and measure that no other is shown to beat in both error and time.
 struct Front {
@@ -300,15 +283,14 @@ struct Front {
   std::string engine;  ///< empty: over all engines
   std::vector<std::size_t> points;
   std::vector<double> errors;  ///< that these points count with
-};
 
-void fields(auto& io, Front& front) {
-  io("error_kind", front.kind);
-  io("measure", front.measure, aName);
-  io("engine", front.engine, aName);
-  io("points", front.points);
-  io("errors", front.errors);
-}
+  void fields(auto& io) {
+    io("error_kind", kind);
+    io("measure", measure, aName);
+    io("engine", engine, aName);
+    FIELDS(io, points, errors);
+  }
+};
 
 /// The setting of an engine for a target: the cheapest that collisions show to reach it and that
 /// averages, whose scatter seldom decides, do not contradict. Where no collision was measured
@@ -340,27 +322,20 @@ struct Advice : CostTime {
   std::optional<CostKind> costKind() const {
     return kinds.empty() ? std::nullopt : std::optional(kinds.back());
   }
-};
 
-void fields(auto& io, Advice& advice) {
-  io("engine", advice.engine, aName);
-  io("want", advice.target);
-  io("verdict", advice.verdict, costVerdictNames);
-  io("knob", advice.knob, aKnob);
-  io("setting", advice.setting);
-  io("fragment", advice.fragment);
-  io("kinds", advice.kinds);
-  timeFields(io, advice);
-  io("ties", advice.ties);
-  const auto kind = advice.costKind();
-  std::string costKind = kind ? toString(*kind) : "";  // for readers of the file: it follows
-  io("cost_kind", costKind);
-  io("length", advice.length);
-  io("obstacle", advice.obstacle);
-  io("model", advice.model);
-  io("decides", advice.decides);
-  io("cheapest", advice.cheapest);
-}
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("want", target);
+    io("verdict", verdict, costVerdictNames);
+    io("knob", knob, aKnob);
+    FIELDS(io, setting, fragment, kinds);
+    timeFields(io);
+    io("ties", ties);
+    const auto kind = costKind();
+    std::string costKind = kind ? toString(*kind) : "";  // for readers of the file: it follows
+    FIELDS(io, costKind, length, obstacle, model, decides, cheapest);
+  }
+};
 
 /// Reference of an engine's error.
 enum class CostBasis {
@@ -391,22 +366,17 @@ struct CostCell : CostTime {
   std::string decides = {};  ///< measurements that would decide
 
   bool decided() const { return verdict == Verdict::pass || verdict == Verdict::fail; }
-};
 
-void fields(auto& io, CostCell& cell) {
-  io("engine", cell.engine, aName);
-  io("error_kind", cell.kind);
-  io("basis", cell.basis);
-  io("want", cell.target);
-  io("verdict", cell.verdict, costVerdictNames);
-  io("knob", cell.knob, aKnob);
-  io("setting", cell.setting);
-  timeFields(io, cell);
-  io("ties", cell.ties);
-  io("point", cell.point);
-  io("model", cell.model);
-  io("decides", cell.decides);
-}
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("error_kind", kind);
+    FIELDS(io, basis, setting, ties, point, model, decides);
+    io("want", target);
+    io("verdict", verdict, costVerdictNames);
+    io("knob", knob, aKnob);
+    timeFields(io);
+  }
+};
 
 /// Cost of accuracy: results of kind "cost" (docs/results.md).
 struct CostResults : FlowFrame {
@@ -450,26 +420,14 @@ struct CostResults : FlowFrame {
   void fields(auto& io) {
     FlowFrame::fields(io);
     io("elapsed_s", elapsed);
-    io("engines", engines);
-    io("packings", packings);
+    FIELDS(io, engines, packings, points, references, models, startup, engineFailures, impacts,
+           margins, steps, largestSteps, fronts, advice, cells);
     io.when(inMargins, "in_margins", inMargins);
     io.present("want", target);
     io("budget_s", budget);
     io("budget_for_the_rest_s", budgetForTheRest);
     io.when(!missingAnswers.empty(), "missing_answers", missingAnswers);
-    io("points", points);
-    io("references", references);
-    io("models", models);
     io("window_s", window);
-    io("startup", startup);
-    io("engine_failures", engineFailures);
-    io("impacts", impacts);
-    io("margins", margins);
-    io("steps", steps);
-    io("largest_steps", largestSteps);
-    io("fronts", fronts);
-    io("advice", advice);
-    io("cells", cells);
   }
 };
 

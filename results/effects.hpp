@@ -60,17 +60,42 @@ struct EffectVariant {
 
   /// Whether anything is switched off.
   bool isSwitched() const { return !effect.empty(); }
+
+  void fields(auto& io) {
+    const bool ran = status != Status::refused;
+    const bool changed = ran && isSwitched();
+    io("engine", engine, aName);
+    io("effect", effect, aName);
+    io("status", status, engineStatusNames);
+    io("reason", reason);
+    io.when(ran, "step_s", step);
+    io.when(ran, "contacts_per_step", contacts);
+    io.when(ran, "time_ratio", timeRatio);
+    io.when(ran, "time_ratio_stderr", timeRatioError);
+    PRESENT_FIELDS(io, precision, effects);
+    io.when(changed, "packings", changes.packings);
+    io.when(changed, "stderr_kind", changes.bars);
+    io.when(changed, "fields", changes.fields);
+    io.when(changed && !changes.endpoints.empty(), "endpoints", changes.endpoints);
+  }
 };
 
 /// Sentence on what was switched off.
 struct SwitchRow {
   std::string effect, what;
+
+  void fields(auto& io) {
+    io("effect", effect, aName);
+    io("what", what);
+  }
 };
 
 /// How steps are timed.
 struct TimingPlan {
   double seconds = 0.2;  ///< each variant steps for at least as long in each round
   int rounds = 5;
+
+  void fields(auto& io) { FIELDS(io, seconds, rounds); }
 };
 
 struct EffectsResults : FlowStudy {
@@ -82,8 +107,7 @@ struct EffectsResults : FlowStudy {
   void fields(auto& io) {
     FlowStudy::fields(io);
     io.when(!ensemble.empty(), "ensemble", ensemble);
-    io("switches", switches);
-    io("timing", timing);
+    FIELDS(io, switches, timing);
     io("legs", variants);
   }
 };

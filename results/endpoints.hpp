@@ -37,8 +37,7 @@ struct UnpairedRuns {
 
   void fields(auto& io) {
     io("basis", basis, basisNames);
-    io("a", a);
-    io("b", b);
+    FIELDS(io, a, b);
     io.present("share_of_a", shareOfA);
   }
 };
@@ -94,34 +93,21 @@ struct EndpointRow {
     io("kind", kind);
     io("endpoint", endpoint, aName);
     io("unit", unit, aUnit);
-    io("margin", margin);
-    io("margin_relative", marginRelative);
-    io("margin_why", marginWhy);
+    FIELDS(io, margin, marginRelative, marginWhy);
     std::string word = answer();
     if (io.reading)
       io("answer", verdict, answerNames);
     else
       io("answer", word);
     io("reference", reference);
-    io.present("reference_half", referenceHalf);
-    io.present("value_half", valueHalf);
-    io("difference", difference);
-    io("low", low);
-    io("high", high);
-    io("distance", distance);
-    io("distance_low", distanceLow);
-    io("distance_high", distanceHigh);
-    io("look", look);
-    io("packings", packings);
-    io("lost", lost);
+    PRESENT_FIELDS(io, referenceHalf, valueHalf);
+    FIELDS(io, difference, low, high, distance, distanceLow, distanceHigh, look, packings, lost);
     io.present("unpaired", unpaired);
     io.when(!reason.empty(), "reason", reason);
-    io.present("needs", needs);
-    io.present("needs_at_most", needsAtMost);
+    PRESENT_FIELDS(io, needs, needsAtMost);
     io.when(!surrogateA.empty(), "carrier_a", surrogateA, aName);
     io.when(!surrogateB.empty(), "carrier_b", surrogateB, aName);
-    io.present("bound", bound);
-    io.present("reach", reach);
+    PRESENT_FIELDS(io, bound, reach);
   }
 };
 
@@ -130,10 +116,7 @@ struct InterimRow {
   int packings = 0;
   double alpha = 0.0;  ///< its part of 1 − confidence, for *disagree*
 
-  void fields(auto& io) {
-    io("packings", packings);
-    io("alpha", alpha);
-  }
+  void fields(auto& io) { FIELDS(io, packings, alpha); }
 };
 
 struct InterimFindings {
@@ -144,11 +127,9 @@ struct InterimFindings {
   std::string ended;    ///< why no further look was taken
 
   void fields(auto& io) {
-    io("planned", planned);
+    FIELDS(io, planned, taken, ended);
     io.present("agree_alpha", agreeAlpha);
-    io("taken", taken);
     io("budget_s", budget);
-    io("ended", ended);
   }
 };
 
@@ -164,11 +145,7 @@ struct EndpointResponse {
   void fields(auto& io) {
     io("endpoint", endpoint, aName);
     io("constant", constant, aName);
-    io("change", change);
-    io("difference", difference);
-    io("bound", bound);
-    io("scatter", scatter);
-    io("packings", packings);
+    FIELDS(io, change, difference, bound, scatter, packings);
   }
 };
 
@@ -182,10 +159,7 @@ struct SpotCheckNumber {
 
   void fields(auto& io) {
     io("endpoint", endpoint, aName);
-    io("difference", difference);
-    io("floor", floor);
-    io("chance", chance);
-    io("reach", reach);
+    FIELDS(io, difference, floor, chance, reach);
   }
 };
 
@@ -195,10 +169,7 @@ struct EquivalentChange {
   std::string constant;  ///< "kn"
   double change = 0.0;
 
-  void fields(auto& io) {
-    io("constant", constant);
-    io("change", change);
-  }
+  void fields(auto& io) { FIELDS(io, constant, change); }
 };
 
 /// The followed run of a spot check: windows one after the other within one run of the engine,
@@ -218,15 +189,9 @@ struct LateWindows {
   bool severalAtOnce = false;
 
   void fields(auto& io) {
-    io("packing", packing);
+    FIELDS(io, packing, equivalents, failure, read, beyond, differs, severalAtOnce);
     io("times_s", times);
     io("length_s", length);
-    io("equivalents", equivalents);
-    io("failure", failure);
-    io("read", read);
-    io("beyond", beyond);
-    io("differs", differs);
-    io("several_at_once", severalAtOnce);
   }
 };
 
@@ -247,14 +212,10 @@ struct SurrogateEngine {
   void fields(auto& io) {
     io("engine", engine, aName);
     io("mirror", mirror, aName);
-    io("equivalent", equivalent);
-    io("starts", starts);
+    FIELDS(io, equivalent, starts, alarm, late, observed);
     io("canary_packing", spotCheckPacking);
     io("canary", spotCheck);
-    io("alarm", alarm);
     io("carried", inUse);
-    io("late", late);
-    io("observed", observed);
   }
 };
 
@@ -302,8 +263,7 @@ struct AlarmRow {
   void fields(auto& io) {
     io("a", a, aName);
     io("b", b, aName);
-    io("kind", kind);
-    io("what", what);
+    FIELDS(io, kind, what);
   }
 };
 
@@ -317,11 +277,8 @@ struct EndpointFindings {
 
   void fields(auto& io) {
     io.when(!reference.empty(), "reference", reference, aName);
-    io("looks", looks);
-    io("rows", rows);
-    io("alarms", alarms);
+    FIELDS(io, looks, rows, alarms, responses);
     io("carried", surrogates);
-    io("responses", responses);
   }
 };
 

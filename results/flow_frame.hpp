@@ -23,18 +23,8 @@ struct CouetteCell {
   double diameter = 0.0;                        ///< the d of r̃ = (r − R_i)/d [m]
 
   void fields(auto& io) {
-    io("inner_radius", innerRadius);
-    io("outer_radius", outerRadius);
-    io("wall_radius", wallRadius);
-    io("wall_spacing", wallSpacing);
-    io("height", height);
-    io("omega", omega);
-    io("small", small);
-    io("large", large);
-    io("small_radius", smallRadius);
-    io("large_radius", largeRadius);
-    io("volume_fraction", volumeFraction);
-    io("diameter", diameter);
+    FIELDS(io, innerRadius, outerRadius, wallRadius, wallSpacing, height, omega, small, large,
+           smallRadius, largeRadius, volumeFraction, diameter);
   }
 };
 
@@ -50,14 +40,9 @@ struct FlowAveraging {
 
   void fields(auto& io) {
     io("method", method, aName);
-    io.present("settle_rotations", settleRotations);
-    io.present("rotations", rotations);
-    io.present("from_rotation", fromRotation);
-    io.present("to_rotation", toRotation);
+    PRESENT_FIELDS(io, settleRotations, rotations, fromRotation, toRotation, lineWidth);
     io.when(fromRotation.has_value(), "prepared_rotations", preparedRotations);
-    io("snapshots", snapshots);
-    io("confidence", confidence);
-    io.present("line_width", lineWidth);
+    FIELDS(io, snapshots, confidence);
   }
 };
 
@@ -73,13 +58,8 @@ struct RegionRow {
   double from = 0.0, to = 0.0;  ///< averaged [s]
 
   void fields(auto& io) {
-    io("bins", bins);
+    FIELDS(io, bins, height, diameter, disks, x, y);
     io.when(!along.empty(), "along", along);
-    io("height", height);
-    io("diameter", diameter);
-    io("disks", disks);
-    io("x", x);
-    io("y", y);
     io.when(!z.empty(), "z", z);
     io("from_s", from);
     io("to_s", to);
@@ -91,11 +71,7 @@ struct RingPlaces {
   std::vector<double> rTilde;   ///< (r − R_i)/d
   std::optional<double> width;  ///< [m]
 
-  void fields(auto& io) {
-    io("r", r);
-    io("r_tilde", rTilde);
-    io("width", width);
-  }
+  void fields(auto& io) { FIELDS(io, r, rTilde, width); }
 };
 
 struct PackingRow {
@@ -104,12 +80,7 @@ struct PackingRow {
   std::string hash;
   bool fromCache = false;
 
-  void fields(auto& io) {
-    io("index", index);
-    io("seed", seed);
-    io("hash", hash);
-    io("from_cache", fromCache);
-  }
+  void fields(auto& io) { FIELDS(io, index, seed, hash, fromCache); }
 };
 
 struct FlowFrame {
@@ -125,10 +96,8 @@ struct FlowFrame {
     head.fields(io);
     io.when(!region, "cell", cell);
     io.present("region", region);
-    io("averaging", averaging);
+    FIELDS(io, averaging, rings, notes);
     io("effects", effects, aName);
-    io("rings", rings);
-    io("notes", notes);
   }
 };
 

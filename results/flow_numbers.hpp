@@ -67,16 +67,11 @@ struct FitRow {
 
   void fields(auto& io) {
     io("name", name, aName);
-    io("label", label);
+    FIELDS(io, label, value, reason, expected);
     io("unit", unit, aUnit);
-    io("value", value);
     io("stderr", standardError);
     io.when(packings || name != spinInRing1, "chi2_per_dof", chi2PerDof);
-    io("reason", reason);
-    io("expected", expected);
-    io.present("period", period);
-    io.present("packings", packings);
-    io.present("of_packings", ofPackings);
+    PRESENT_FIELDS(io, period, packings, ofPackings);
   }
 };
 
@@ -90,9 +85,7 @@ struct CheckRow {
 
   void fields(auto& io) {
     io("name", name, aName);
-    io("label", label);
-    io("value", value);
-    io("reference", reference);
+    FIELDS(io, label, value, reference);
     io("reference_stderr", referenceError);
     io("stderr", standardError);
     io.present("note", note);
@@ -107,11 +100,7 @@ struct RegimeRow {
 
   void fields(auto& io) {
     io("name", regime);
-    io("reason", reason);
-    io("wheel_contacts", wheelContacts);
-    io("wheel_slip", wheelSlip);
-    io("shear_share", shearShare);
-    io("inertial_number", inertialNumber);
+    FIELDS(io, reason, wheelContacts, wheelSlip, shearShare, inertialNumber);
     io("blocked_share", blockedFraction);
   }
 };
@@ -123,10 +112,8 @@ struct SeriesDrift {
 
   void fields(auto& io) {
     io("quantity", quantity, aName);
-    io("verdict", drift.verdict);
-    io("change", drift.change);
+    FIELDS(io, drift.verdict, drift.change, drift.excluded);
     io("half_width", drift.half);
-    io("excluded", drift.excluded);
   }
 };
 
@@ -139,8 +126,7 @@ struct EngineDrift : SeriesDrift {
   void fields(auto& io) {
     SeriesDrift::fields(io);
     io("engine", engine, aName);
-    io("packings", packings);
-    io("drifting", drifting);
+    FIELDS(io, packings, drifting);
   }
 };
 
@@ -154,9 +140,7 @@ struct RegimesOfPair {
   void fields(auto& io) {
     io("a", a, aName);
     io("b", b, aName);
-    io("kind", kind);
-    io("packings", packings);
-    io("differ", differ);
+    FIELDS(io, kind, packings, differ);
   }
 };
 

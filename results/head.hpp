@@ -11,11 +11,7 @@ struct Machine {
   std::string cpu, os;
   unsigned cores = 0;
 
-  void fields(auto& io) {
-    io("cpu", cpu);
-    io("os", os);
-    io("cores", cores);
-  }
+  void fields(auto& io) { FIELDS(io, cpu, os, cores); }
 };
 
 /// The case that was run, as it was resolved.
@@ -23,12 +19,7 @@ struct CaseHead {
   std::string name, variant, file;
   std::string toml;  ///< the merged document, printed
 
-  void fields(auto& io) {
-    io("name", name);
-    io("variant", variant);
-    io("file", file);
-    io("toml", toml);
-  }
+  void fields(auto& io) { FIELDS(io, name, variant, file, toml); }
 };
 
 struct ResultsHead {
@@ -41,13 +32,8 @@ struct ResultsHead {
 
   /// Its members stand beside those of the results themselves, not in an object of their own.
   void fields(auto& io) {
-    io("schema", schema);
-    io("kind", kind);
-    io("version", version);
+    FIELDS(io, schema, kind, version, command, started, machine);
     io.when(!build.empty(), "build", build);
-    io("command", command);
-    io("started", started);
-    io("machine", machine);
     io("case", setup);
   }
 };
@@ -66,11 +52,9 @@ struct EngineRow {
 
   void fields(auto& io) {
     io("name", name, aName);
-    io("summary", summary);
-    io("version", version);
+    FIELDS(io, summary, version, reason);
     io("mirrors", mirrors, aName);
     io("status", status, engineStatusNames);
-    io("reason", reason);
   }
 };
 

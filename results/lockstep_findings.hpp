@@ -50,11 +50,9 @@ struct LockstepRules {
   double strayShare = 0.0;            ///< of starts that may be beyond sameLaw by chance
 
   void fields(auto& io) {
-    io("rounding", rounding);
-    io("same_law", sameLaw);
+    FIELDS(io, rounding, sameLaw, strayShare);
     io("yardstick", referencePerturbation);
     io("yardstick_change", referenceChange);
-    io("stray_share", strayShare);
   }
 };
 
@@ -65,9 +63,8 @@ struct LockstepStart {
   double wheelAngle = 0.0;  ///< since the wheel was built [rad]
 
   void fields(auto& io) {
-    io("packing", packing);
+    FIELDS(io, packing, wheelAngle);
     io("time_s", time);
-    io("wheel_angle", wheelAngle);
   }
 };
 
@@ -88,11 +85,8 @@ struct LockstepSeparation {
 
   void fields(auto& io) {
     io("time_s", time);
-    io("median", median);
-    io("largest", largest);
+    FIELDS(io, median, largest, rounding, equivalent);
     io("yardstick", referencePerturbation);
-    io("rounding", rounding);
-    io("equivalent", equivalent);
   }
 };
 
@@ -105,9 +99,8 @@ struct StartReading {
   bool beyond = false;  ///< ε_eq is above LockstepRules::sameLaw, or disks that touch nothing part
 
   void fields(auto& io) {
-    io("equivalent", equivalent);
+    FIELDS(io, equivalent, beyond);
     io("until_s", until);
-    io("beyond", beyond);
   }
 };
 
@@ -118,11 +111,9 @@ struct ContactKinds {
   std::size_t wall = 0;              ///< with a wall disk
 
   void fields(auto& io) {
-    io("sticking", sticking);
-    io("sliding", sliding);
+    FIELDS(io, sticking, sliding, wall);
     io("new", made);
     io("opening", opened);
-    io("wall", wall);
   }
 };
 
@@ -136,13 +127,9 @@ struct FirstExceedance {
   std::size_t touching = 0;            ///< how many contacts it has, or its partner if more
 
   void fields(auto& io) {
-    io("start", start);
+    FIELDS(io, start, disk, partner, contact, touching);
     io("after_s", after);
     io("until_s", until);
-    io("disk", disk);
-    io("partner", partner);
-    io("contact", contact);
-    io("touching", touching);
   }
 };
 
@@ -154,13 +141,7 @@ struct LockstepForces {
   double normal = 0.0;       ///< largest difference, in the largest normal force [-]
   double tangential = 0.0;   ///< likewise
 
-  void fields(auto& io) {
-    io("contacts", contacts);
-    io("missing", missing);
-    io("extra", extra);
-    io("normal", normal);
-    io("tangential", tangential);
-  }
+  void fields(auto& io) { FIELDS(io, contacts, missing, extra, normal, tangential); }
 };
 
 /// A single change of the mirror that would account for what was seen.
@@ -169,11 +150,7 @@ struct NamedTerm {
   std::optional<double> amount;  ///< of a constant: relative change
   double unexplained = 0.0;      ///< rms part of the separation that is left, 0 … 1
 
-  void fields(auto& io) {
-    io("name", name);
-    io("amount", amount);
-    io("unexplained", unexplained);
-  }
+  void fields(auto& io) { FIELDS(io, name, amount, unexplained); }
 };
 
 /// Causes of how far an engine's mirror leaves the in-house engine under the case's own law, both
@@ -189,11 +166,8 @@ struct LockstepCauses : Causes {
 
   void fields(auto& io) {
     Causes::fields(io);
-    io("starts", starts);
-    io("first_step", firstStep);
+    FIELDS(io, starts, firstStep, parts, interaction);
     io("time_s", time);
-    io("parts", parts);
-    io("interaction", interaction);
   }
 };
 
@@ -231,27 +205,11 @@ struct LockstepRow {
 
   void fields(auto& io) {
     io("engine", engine, aName);
-    io("verdict", verdict);
-    io("reason", reason);
-    io("equivalent", equivalent);
-    io("equivalent_low", equivalentLow);
-    io("equivalent_high", equivalentHigh);
-    io("readings", readings);
-    io("read", read);
-    io("beyond", beyond);
-    io("share_high", shareHigh);
+    FIELDS(io, verdict, reason, equivalent, equivalentLow, equivalentHigh, readings, read, beyond,
+           shareHigh, resolution, starts, failure, separations, track, kinds, first, forces, term);
     io.when(severalAtOnce, "several_at_once", severalAtOnce);
-    io("resolution", resolution);
-    io("starts", starts);
     io("same_to_its_precision", precise);
-    io("failure", failure);
-    io("separations", separations);
     io("track_time_s", trackTime);
-    io("track", track);
-    io("kinds", kinds);
-    io("first", first);
-    io("forces", forces);
-    io("term", term);
     io.present("causes", causes);
     io("realised", effective);
     io("wall_s", wallSeconds);
@@ -263,11 +221,7 @@ struct LockstepFindings {
   std::vector<LockstepStart> starts;
   std::vector<LockstepRow> rows;
 
-  void fields(auto& io) {
-    io("rules", rules);
-    io("starts", starts);
-    io("rows", rows);
-  }
+  void fields(auto& io) { FIELDS(io, rules, starts, rows); }
 };
 
 }  // namespace crossgrain::inline results

@@ -14,6 +14,8 @@ namespace crossgrain::inline results {
 /// Something that an engine declares: its step, an option, a constant of a kind of pair.
 struct DeclaredChange {
   std::string name, before, now;  ///< empty: not there
+
+  void fields(auto& io) { FIELDS(io, name, before, now); }
 };
 
 /// One quantity over one sweep of collisions.
@@ -26,6 +28,13 @@ struct CollisionChange {
   double relative = 0.0;    ///< its size in units of the largest value of the sweep before [-]
   double psi = 0.0;         ///< Ψ_i at which it is …
   double vn = 0.0;          ///< … and speed of approach [m/s]
+
+  void fields(auto& io) {
+    FIELDS(io, name, variant, changed, points, largest, relative);
+    io("quantity", quantity, aName);
+    io("psi_i", psi);
+    io("v_n", vn);
+  }
 };
 
 /// Forces that are reported of states that both came to.
@@ -33,6 +42,8 @@ struct ForcesChange {
   std::size_t frames = 0;                 ///< of such states
   double normal = 0.0, tangential = 0.0;  ///< of a contact, in the largest normal force before [-]
   double walls = 0.0;  ///< on a wall, in the largest force, or torque, before [-]
+
+  void fields(auto& io) { FIELDS(io, frames, normal, tangential, walls); }
 };
 
 /// One engine compared with the baseline.
@@ -55,6 +66,13 @@ struct DiffRow {
   /// Averages of whole runs from each start compared with those kept; empty where none were kept,
   /// or where the windows are the same bits.
   std::vector<EndpointRow> endpoints;
+
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    FIELDS(io, version, before, versionBefore, verdict, reason, failure, declared, windows,
+           mirrored, windowsVerdict, forces, forcesVerdict, collisions, sweeps, collisionsVerdict,
+           endpoints);
+  }
 };
 
 struct DiffResults {
@@ -65,6 +83,12 @@ struct DiffResults {
   LockstepRules rules;
   std::vector<LockstepStart> starts;
   std::vector<DiffRow> rows;
+
+  void fields(auto& io) {
+    head.fields(io);
+    FIELDS(io, baseline, baselineVersion, changedKeys, rules, starts);
+    io("engines", rows);
+  }
 };
 
 /// A field or an array that two answers to one request do not have alike.
@@ -75,6 +99,13 @@ struct AnswerDifference {
   std::string then, now;           ///< there
   std::optional<double> off = {};  ///< |now − then| there, of numbers, in the field's unit
   std::size_t differ = 1, of = 1;  ///< elements
+
+  /// The list writes place and field as one.
+  void fields(auto& io) {
+    std::string where = field + place;
+    io("field", where);
+    FIELDS(io, then, now, off, differ, of);
+  }
 };
 
 /// Answers of an engine to the requests of a recording.
@@ -89,6 +120,12 @@ struct ReplayResults {
   std::string request;  ///< the first other request with a different answer; empty: there is none
   std::vector<AnswerDifference> differences;
   std::string failure;  ///< of the engine, now; it may be the one that was recorded
+
+  void fields(auto& io) {
+    FIELDS(io, engine, version, recordedEngine, recordedVersion, recordedStamp, asked, declared,
+           request, differences, failure);
+    io("case", caseName);
+  }
 };
 
 }  // namespace crossgrain::inline results

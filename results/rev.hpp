@@ -22,9 +22,7 @@ struct RevCurve {
     io("method", method, aName);
     io("field", field, aField);
     io("unit", unit, aUnit);
-    io("r", r);
-    io("width", width);
-    io("mean", mean);
+    FIELDS(io, r, width, mean);
     io("stderr", standardError);
   }
 };
@@ -38,9 +36,7 @@ struct RevMeeting {
   void fields(auto& io) {
     io("method", method, aName);
     io("field", field, aField);
-    io("near", near);
-    io("width", width);
-    io("difference", difference);
+    FIELDS(io, near, width, difference);
   }
 };
 
@@ -59,8 +55,7 @@ struct RevResults : FlowFrame {
   void fields(auto& io) {
     FlowFrame::fields(io);
     io("engine", engine, aName);
-    io("curves", curves);
-    io("meetings", meetings);
+    FIELDS(io, curves, meetings);
   }
 };
 

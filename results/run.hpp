@@ -19,20 +19,15 @@ void fields(auto& io, Profile& profile) {
   io("method", profile.method, aName);
   io("field", profile.field, aField);
   io("unit", profile.unit, aUnit);
-  io("mean", profile.mean);
+  FIELDS(io, profile.mean, profile.nEff, profile.dof);
   io("stderr", profile.standardError);
-  io("n_eff", profile.nEff);
-  io("dof", profile.dof);
 }
 
 void fields(auto& io, Distribution& distribution) {
   io("quantity", distribution.quantity, aName);
-  io("ring", distribution.ring);
-  io("axes", distribution.axes);
-  io("density", distribution.density);
+  FIELDS(io, distribution.ring, distribution.axes, distribution.density, distribution.outside,
+         distribution.samples);
   io("stderr", distribution.standardError);
-  io("outside", distribution.outside);
-  io("samples", distribution.samples);
 }
 
 /// Names in files of a run's status.
@@ -86,18 +81,15 @@ struct FlowRun {
   void fields(auto& io) {
     io("engine", engine, aName);
     io.when(!without.empty(), "without", without, aName);
-    io("packing", packing);
+    FIELDS(io, packing, reason);
     io("status", status, runStatusNames);
-    io("reason", reason);
     io.present("realised", effective);
-    io.present("stats", stats);
+    PRESENT_FIELDS(io, stats, regime, series);
     io.when(finished(), "head", head);
-    io.present("regime", regime);
     io.when(finished(), "steadiness", steadiness);
     io.when(finished(), "profiles", profiles);
     io.when(finished(), "fits", fits);
     io.when(finished(), "checks", checks);
-    io.present("series", series);
     io.when(series.has_value(), "distributions", distributions);
     io.when(effective && series, "picture", picture);
     io.when(!strip.empty(), "strip", strip);
@@ -121,11 +113,7 @@ struct CouetteEnsemble {
   void fields(auto& io) {
     io("engine", engine, aName);
     io.when(!without.empty(), "without", without, aName);
-    io("packings", packings);
-    io("profiles", profiles);
-    io("distributions", distributions);
-    io("fits", fits);
-    io("head", head);
+    FIELDS(io, packings, profiles, distributions, fits, head);
   }
 };
 

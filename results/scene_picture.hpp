@@ -28,26 +28,10 @@ struct ScenePicture {
   double rotation = 0.0;  ///< of the wheel so far
 
   void fields(auto& io) {
-    io("radius", radius);
-    io("x", x);
-    io("y", y);
-    io("start_r", startR);
-    io("start_phi", startPhi);
-    io("wall_x", wallX);
-    io("wall_y", wallY);
-    io("wall_radius", wallRadius);
-    io.present("speed", speed);
-    io.present("cut", cut);
-    io.present("depth", depth);
-    io.present("wall_depth", wallDepth);
-    io.present("contact_i", contactI);
-    io.present("contact_j", contactJ);
-    io.present("contact_force", contactForce);
-    io.present("planes", planes);
-    io.present("circles", circles);
-    io.present("outlines", outlines);
+    FIELDS(io, radius, x, y, startR, startPhi, wallX, wallY, wallRadius, rotation);
+    PRESENT_FIELDS(io, speed, cut, depth, wallDepth, contactI, contactJ, contactForce, planes,
+                   circles, outlines);
     io("time_s", time);
-    io("rotation", rotation);
   }
 };
 

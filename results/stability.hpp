@@ -25,6 +25,13 @@ struct HardCase {
   double degradedLimit = 0.0;  ///< up to here: degraded
   std::string why;             ///< of the limits
   std::string toml;            ///< the merged document, printed
+
+  void fields(auto& io) {
+    io("case", name, aName);
+    FIELDS(io, variant, file, tests, what, limit, degradedLimit, why, toml);
+    io("measure", measure, aName);
+    io("unit", unit, aUnit);
+  }
 };
 
 /// A measure over time.
@@ -61,22 +68,13 @@ struct StabilityRun {
   void fields(auto& io) {
     io("engine", engine, aName);
     io("case", name, aName);
-    io("variant", variant);
-    io("status", status);
+    FIELDS(io, variant, status, value, limit, degradedLimit, step, reason, curve, picture, stats);
     io("verdict", verdict, stabilityNames);
     io("measure", measure, aName);
-    io("value", value);
-    io("limit", limit);
-    io("degraded_limit", degradedLimit);
     io("unit", unit, aUnit);
-    io("step", step);
     io("time_s", time);
     io.present("worst_time_s", worstTime);
-    io("reason", reason);
-    io("curve", curve);
-    io("picture", picture);
     io("realised", effective);
-    io("stats", stats);
   }
 };
 
@@ -86,6 +84,12 @@ struct StabilityResults {
   std::vector<EngineRow> engines;
   std::vector<HardCase> cases;
   std::vector<StabilityRun> runs;  ///< case by case, engine by engine
+
+  void fields(auto& io) {
+    head.fields(io);
+    io.present("elapsed_s", elapsed);
+    FIELDS(io, engines, cases, runs);
+  }
 };
 
 }  // namespace crossgrain::inline results

@@ -40,27 +40,22 @@ struct StepTime {
   std::string measured;              ///< when it was begun: ISO 8601, UTC
 
   bool ran() const { return status == Status::finished && !seconds.empty(); }
-};
 
-void fields(auto& io, StepTime& time) {
-  io("engine", time.engine, aName);
-  io("disks", time.bodies);
-  io("workers", time.workers);
-  io("workers_are", time.workersAre);
-  io("status", time.status, costStatusNames);
-  io("reason", time.reason);
-  io("steps", time.steps);
-  io("step_s", time.seconds);
-  io("mean_s", time.step);
-  io("low_s", time.low);
-  io("high_s", time.high);
-  io("contacts_per_step", time.contacts);
-  io("memory_bytes", time.memory);
-  io("precision", time.precision, aName);
-  io("dt_s", time.dt);
-  io("differs", time.differs);
-  io("measured", time.measured);
-}
+  void fields(auto& io) {
+    io("engine", engine, aName);
+    io("disks", bodies);
+    FIELDS(io, workers, workersAre, reason, steps, differs, measured);
+    io("status", status, costStatusNames);
+    io("step_s", seconds);
+    io("mean_s", step);
+    io("low_s", low);
+    io("high_s", high);
+    io("contacts_per_step", contacts);
+    io("memory_bytes", memory);
+    io("precision", precision, aName);
+    io("dt_s", dt);
+  }
+};
 
 /// Figures of a step's time and of the others of its engine. Absent where it did not run, or that
 /// with which it is compared.

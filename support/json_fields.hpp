@@ -25,10 +25,11 @@
 /// How structs become JSON and come back. One list of a struct's members serves both ways:
 ///
 ///     void fields(auto& io) {
-///       io("engine", engine);           // always written; where a file lacks it, the default
-///       io.required("dt", run.dt);          // must be there and not be null
-///       io.present("step", step);       // an optional that is written only where it is there
+///       io("dt_s", dt);                // always written; where a file lacks it, the default
+///       io.required("dt", run.dt);     // must be there and not be null
+///       io.present("step", step);      // an optional that is written only where it is there
 ///       io.when(turns, "spin", spin);  // written where that holds, read where it is there
+///       FIELDS(io, engine, caseName);  // io("engine", engine), io("case_name", caseName)
 ///     }
 ///
 /// A list that does more asks io.reading. A text that becomes part of a file's name, a command or a
@@ -54,6 +55,47 @@ struct Words {
   bool (*fit)(std::string_view);
   std::string_view what;
 };
+
+/// Names of members, "one.radius, one.spinRate", as keys of a file: "radius", "spin_rate". Each
+/// ends with a 0.
+template <std::size_t n>
+struct FieldKeys {
+  std::array<char, 2 * n> text{};
+
+  // NOLINTNEXTLINE(google-explicit-constructor): from a literal
+  constexpr FieldKeys(const char (&members)[n]) {
+    std::size_t end = 0, start = 0;  // of the key
+    for (const char c : members) {
+      if (c == ' ') continue;
+      if (c == '.') {
+        end = start;
+      } else if (c == ',' || c == 0) {
+        text[end++] = 0;
+        start = end;
+      } else {
+        const bool capital = 'A' <= c && c <= 'Z';
+        if (capital) text[end++] = '_';
+        text[end++] = static_cast<char>(capital ? c - 'A' + 'a' : c);
+      }
+    }
+  }
+};
+
+template <FieldKeys keys>
+void eachField(auto take, auto&... members) {
+  const char* key = keys.text.data();
+  ((take(key, members), key += std::string_view(key).size() + 1), ...);
+}
+
+/// Members under their own names, in a file as in the struct.
+#define FIELDS(io, ...)                           \
+  ::crossgrain::support::eachField<#__VA_ARGS__>( \
+      [&](const char* key, auto& member) { io(key, member); }, __VA_ARGS__)
+
+/// The same by io.present.
+#define PRESENT_FIELDS(io, ...)                   \
+  ::crossgrain::support::eachField<#__VA_ARGS__>( \
+      [&](const char* key, auto& member) { io.present(key, member); }, __VA_ARGS__)
 
 /// The names that one kind of file has for enumerators; those that are missing have none there.
 template <typename Enum, std::size_t n>

@@ -29,9 +29,7 @@ struct Marker {
 };
 
 void fields(auto& io, Marker& said) {
-  io("command", said.command);
-  io("program", said.program);
-  io("cases", said.cases);
+  FIELDS(io, said.command, said.program, said.cases);
 }
 
 /// @throws BadInput where it says what none does
@@ -48,8 +46,7 @@ struct KeptRun {
 };
 
 void fields(auto& io, KeptRun& kept) {
-  io("key", kept.key);
-  io("run", kept.run);
+  FIELDS(io, kept.key, kept.run);
 }
 
 /// Files that are not of any crossgrain. The marker is looked for last: whoever makes the folder at

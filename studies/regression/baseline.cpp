@@ -17,23 +17,16 @@
 namespace crossgrain::inline studies {
 
 void fields(auto& io, KeptCollisions& kept) {
-  io("name", kept.name);
-  io("variant", kept.variant);
-  io("refusal", kept.refusal);
+  FIELDS(io, kept.name, kept.variant, kept.refusal, kept.psi, kept.vn, kept.values);
   io("dt_s", kept.dt);
-  io("psi", kept.psi);
-  io("vn", kept.vn);
-  io("values", kept.values);
 }
 
 /// Without windows, which are records of their own.
 void fields(auto& io, BaselineEngine& engine) {
-  io("name", engine.name);
-  io("version", engine.version);
+  FIELDS(io, engine.name, engine.version, engine.endpoints);
   io("capabilities", engine.can);
   io("realised", engine.effective);
   io("sweeps", engine.collisions);
-  io("endpoints", engine.endpoints);
 }
 
 namespace {
@@ -46,11 +39,9 @@ struct BaselineHead {
 };
 
 void fields(auto& io, BaselineHead& head) {
-  io("version", head.version);
+  FIELDS(io, head.version, head.starts, head.engines);
   io("case", head.setup);
   io.when(head.dimension != 2, "dimension", head.dimension);
-  io("starts", head.starts);
-  io("engines", head.engines);
 }
 
 /// Of a frame, what is no array.
@@ -63,11 +54,7 @@ struct FrameHead {
 
 template <int D>
 void fields(auto& io, FrameHead<D>& head) {
-  io("time", head.time);
-  io("velocity_time", head.velocityTime);
-  io("contact_time", head.contactTime);
-  io("forces", head.forces);
-  io("torques", head.torques);
+  FIELDS(io, head.time, head.velocityTime, head.contactTime, head.forces, head.torques);
 }
 
 Record recordOf(Json line, const ArrayWriter& arrays) {
