@@ -6,7 +6,7 @@
 #include "adapters/scene.hpp"
 #include "cases/case.hpp"
 #include "oracle/collision_end.hpp"
-#include "oracle/convex_contact.hpp"
+#include "oracle/convex_impact.hpp"
 
 namespace crossgrain::inline cases {
 

@@ -10,7 +10,7 @@
 #include "cli/outcome.hpp"
 #include "reports/regression/regression.hpp"
 #include "results/schema.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/regression/diff.hpp"
 #include "studies/regression/observe.hpp"

@@ -19,7 +19,7 @@
 #include "cli/option_groups.hpp"
 #include "law/law_options.hpp"
 #include "oracle/calibration.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
 

@@ -16,8 +16,8 @@
 #include "studies/check/case_check.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
-#include "studies/core/shared_conventions.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/mirrors.hpp"
+#include "studies/core/study.hpp"
 #include "support/scratch_folder.hpp"
 #include "support/terminal.hpp"
 

@@ -22,7 +22,7 @@
 #include "reports/render/gnuplot.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/run_store.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/input_file.hpp"

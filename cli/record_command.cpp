@@ -10,7 +10,7 @@
 #include "cli/outcome.hpp"
 #include "reports/regression/regression.hpp"
 #include "studies/core/engine_access.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/regression/recording.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"

@@ -15,7 +15,6 @@
 #include "reports/common/report.hpp"
 #include "reports/report.hpp"
 #include "results/head.hpp"
-#include "results/json_fields.hpp"
 #include "results/schema.hpp"
 #include "studies/core/run_store.hpp"
 #include "support/bad_input.hpp"

@@ -18,7 +18,7 @@
 #include "studies/conformance/conformance.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/mirrors.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/cost/cost.hpp"
 #include "studies/effects/effects.hpp"
 #include "studies/flow/average.hpp"

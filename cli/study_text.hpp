@@ -7,7 +7,6 @@
 #include "results/conformance.hpp"
 #include "results/cost.hpp"
 #include "results/effects.hpp"
-#include "results/rev.hpp"
 #include "results/stability.hpp"
 #include "studies/lockstep/identify.hpp"
 

@@ -1,8 +1,11 @@
 #include "oracle/collision_end.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "law/cohesion.hpp"
 
 namespace crossgrain::inline oracle {
 
@@ -94,6 +97,100 @@ CollisionEnd endOf(const CollidingPair& pair, const CollisionStart& start,
   end.energyBefore = energyOf(pair, before);
   end.energyAfter = energyOf(pair, after);
   return end;
+}
+
+template <int D>
+CollidingPair pairOf(const SceneOf<D>& scene, std::size_t pair) {
+  const DisksOf<D>& disks = scene.disks;
+  if (!scene.bodies.empty())
+    return diskOnWall(disks.radius[pair], disks.mass[pair], disks.inertia[pair]);
+  const std::size_t i = 2 * pair, j = i + 1;
+  return {{disks.radius[i], disks.radius[j]},
+          {disks.mass[i], disks.mass[j]},
+          {disks.inertia[i], disks.inertia[j]}};
+}
+template CollidingPair pairOf<2>(const Scene&, std::size_t);
+template CollidingPair pairOf<3>(const SpaceScene&, std::size_t);
+
+namespace {
+
+/// When a free flight from `apart` reached `reach` for the last time, ≤ 0 [s]. An engine that lets
+/// disks part a hair outside contact never had them at `reach`: then the closest approach of the
+/// flight line is the best instant there is.
+double timeOfParting(const auto& apart, const auto& velocity, double reach) {
+  const double a = velocity.squaredNorm();
+  const double b = apart.dot(velocity);
+  const double c = apart.squaredNorm() - reach * reach;
+  return (std::sqrt(std::max(b * b - a * c, 0.0)) - b) / a;
+}
+
+/// @param turn  takes n, s and b of the start to where they are in the scene: its columns. In the
+///              plane they are where they are
+template <int D>
+std::optional<CollisionEnd> endOfFlight(const SceneOf<D>& scene, const SnapshotOf<D>& after,
+                                        std::size_t pair, const CollisionStart& start,
+                                        const Eigen::Matrix<double, D, D>& turn) {
+  const DisksOf<D>& disks = scene.disks;
+  const CollidingPair bodies = pairOf(scene, pair);
+  const std::size_t i = bodies.plane ? pair : 2 * pair, j = i + 1;
+  // A plane moves as prescribed, so only the body's flight is looked at; the normal stays.
+  const VecOf<D> wall =
+      bodies.plane ? scene.bodies.front().motion.velocity : VecOf<D>(VecOf<D>::Zero());
+  const auto seen = [&](const VecOf<D>& v) -> VecOf<D> {
+    if constexpr (D == 2)
+      return v;
+    else
+      return turn.transpose() * v;
+  };
+  /// Of i against j, or against the plane.
+  const auto between = [&](const std::vector<VecOf<D>>& of, const VecOf<D>& ofWall) {
+    return seen(of[i] - (bodies.plane ? ofWall : of[j]));
+  };
+  const VecOf<D> apart = between(after.position, after.positionTime * wall),
+                 before = between(disks.position, VecOf<D>::Zero()),
+                 velocity = between(after.velocity, wall), approach = between(disks.velocity, wall);
+  const double reach = bodies.radius[0] + bodies.radius[1];
+  const double end = D == 2 ? reach + bondRange(scene.law, bodies.reducedRadius()) : reach;
+  VecOf<D> normal = VecOf<D>::UnitX();
+  double parting, touch;
+  if (bodies.plane) {
+    if (velocity.x() <= 0.0 || apart.x() < end) return std::nullopt;
+    parting = (end - apart.x()) / velocity.x();
+    touch = (reach - before.x()) / approach.x();
+  } else {
+    if (apart.dot(velocity) <= 0.0 || apart.norm() < end) return std::nullopt;
+    parting = timeOfParting(apart, velocity, end);
+    normal = (apart + parting * velocity).normalized();
+    // The flight that brought them together, run backwards, parted them when they met.
+    touch = -timeOfParting(before, VecOf<D>(-approach), reach);
+  }
+  const auto& spin = after.spin ? *after.spin : disks.spin;
+  CollisionEnd parted;
+  if constexpr (D == 2) {
+    parted = endOf(bodies, start,
+                   {velocity.dot(normal),
+                    velocity.dot(perpendicular(normal)),
+                    {spin[i], bodies.plane ? 0.0 : spin[j]}});
+  } else {
+    SpaceMotion motion{normal, velocity, {seen(spin[i]), Vec3::Zero()}};
+    if (!bodies.plane) motion.spin[1] = seen(spin[j]);
+    parted = spaceEndOf(bodies, start, motion);
+  }
+  if (scene.law.soft()) parted.duration = after.positionTime + parting - touch;
+  return parted;
+}
+
+}  // namespace
+
+std::optional<CollisionEnd> collisionEnd(const Scene& scene, const Snapshot& after,
+                                         std::size_t pair, const CollisionStart& start) {
+  return endOfFlight<2>(scene, after, pair, start, Eigen::Matrix2d::Identity());
+}
+
+std::optional<CollisionEnd> collisionEnd(const SpaceScene& scene, const SpaceSnapshot& after,
+                                         std::size_t pair, const CollisionStart& start,
+                                         const Eigen::Matrix3d& turn) {
+  return endOfFlight<3>(scene, after, pair, start, turn);
 }
 
 }  // namespace crossgrain::inline oracle

@@ -11,8 +11,6 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
-#include <string>
-#include <utility>
 
 #include "law/cohesion.hpp"
 #include "oracle/impact.hpp"

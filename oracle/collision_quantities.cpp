@@ -1,7 +1,5 @@
 #include "oracle/collision_quantities.hpp"
 
-#include <array>
-
 namespace crossgrain::inline oracle {
 
 namespace {

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 #include "oracle/two_body_problem.hpp"
 

@@ -17,7 +17,6 @@
 #include "reports/render/gnuplot.hpp"
 #include "reports/render/html.hpp"
 #include "reports/stability/report.hpp"
-#include "results/json_fields.hpp"
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"

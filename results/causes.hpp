@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "results/flow_numbers.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 /// Causes of a difference between a reference and a peer, measured by runs of the in-house engine
 /// under mixtures of both.

@@ -11,7 +11,7 @@
 
 #include "oracle/collision_quantities.hpp"
 #include "results/causes.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 /// Outcomes of collisions as tables, and how far they are from the oracle's.
 namespace crossgrain::inline results {

@@ -4,11 +4,11 @@
 
 #include "adapters/worker/json.hpp"
 #include "results/collision.hpp"
+#include "results/compare.hpp"
 #include "results/conformance.hpp"
 #include "results/cost.hpp"
 #include "results/effects.hpp"
 #include "results/regression.hpp"
-#include "results/rev.hpp"
 #include "results/stability.hpp"
 
 namespace crossgrain::inline results {

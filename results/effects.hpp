@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "results/compare.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::inline results {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "averaging/agreement.hpp"
-#include "results/agreement.hpp"
-#include "results/json_fields.hpp"
+#include "results/flow_numbers.hpp"
+#include "results/schema.hpp"
 
 /// Verdicts on endpoints (cases/endpoints.hpp), and what they rest on.
 namespace crossgrain::inline results {

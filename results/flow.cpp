@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "results/compare.hpp"
-#include "results/rev.hpp"
 
 namespace crossgrain::inline results {
 

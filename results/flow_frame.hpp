@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "results/head.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 /// Description of a Couette case in all its results.
 namespace crossgrain::inline results {

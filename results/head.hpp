@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 /// Head of every kind of results.
 namespace crossgrain::inline results {

@@ -9,7 +9,7 @@
 
 #include "adapters/engine.hpp"
 #include "results/causes.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 /// Engines compared with their mirrors, step by step from the same starts. A mirror is the in-house
 /// engine with the conventions that an engine declares, on the scene that this engine runs.

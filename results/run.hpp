@@ -10,8 +10,8 @@
 #include "averaging/distributions.hpp"
 #include "averaging/profiles.hpp"
 #include "results/flow_numbers.hpp"
-#include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::inline results {
 

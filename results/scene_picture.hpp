@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::inline results {
 

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "averaging/fields.hpp"
-#include "results/json_fields.hpp"
 #include "support/bad_input.hpp"
 #include "support/input_file.hpp"
 #include "support/json_text.hpp"

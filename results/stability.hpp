@@ -8,8 +8,8 @@
 
 #include "adapters/engine.hpp"
 #include "results/head.hpp"
-#include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"
+#include "results/schema.hpp"
 #include "stability/verdict.hpp"
 
 /// results.json of kind "stability": hard cases, and what engines made of them.

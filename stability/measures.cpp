@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "oracle/collision_flight.hpp"
+#include "oracle/collision_end.hpp"
 #include "oracle/collision_oracle.hpp"
 
 namespace crossgrain::inline stability {

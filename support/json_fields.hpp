@@ -87,15 +87,14 @@ void eachField(auto take, auto&... members) {
   ((take(key, members), key += std::string_view(key).size() + 1), ...);
 }
 
-/// Members under their own names, in a file as in the struct.
-#define FIELDS(io, ...)                           \
+#define FIELDS_BY(take, ...)                      \
   ::crossgrain::support::eachField<#__VA_ARGS__>( \
-      [&](const char* key, auto& member) { io(key, member); }, __VA_ARGS__)
+      [&](const char* key, auto& member) { take(key, member); }, __VA_ARGS__)
 
-/// The same by io.present.
-#define PRESENT_FIELDS(io, ...)                   \
-  ::crossgrain::support::eachField<#__VA_ARGS__>( \
-      [&](const char* key, auto& member) { io.present(key, member); }, __VA_ARGS__)
+/// Members under their own names, in a file as in the struct; by io.present; by io.required.
+#define FIELDS(io, ...) FIELDS_BY(io, __VA_ARGS__)
+#define PRESENT_FIELDS(io, ...) FIELDS_BY(io.present, __VA_ARGS__)
+#define REQUIRED_FIELDS(io, ...) FIELDS_BY(io.required, __VA_ARGS__)
 
 /// The names that one kind of file has for enumerators; those that are missing have none there.
 template <typename Enum, std::size_t n>

@@ -8,7 +8,6 @@
 #include <map>
 
 #include "adapters/files/readers.hpp"
-#include "adapters/files/series.hpp"
 #include "support/bad_input.hpp"
 #include "support/input_file.hpp"
 #include "support/regular_file.hpp"

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "adapters/files/readers.hpp"
-#include "adapters/files/series.hpp"
 #include "support/bad_input.hpp"
 
 namespace crossgrain::files {

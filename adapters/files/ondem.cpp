@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "adapters/files/readers.hpp"
-#include "adapters/files/series.hpp"
 #include "support/bad_input.hpp"
 #include "support/hdf5_file.hpp"
 #include "support/input_file.hpp"

@@ -1,4 +1,4 @@
-#include "adapters/files/series.hpp"
+#include "adapters/files/readers.hpp"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,6 @@
 #include <map>
 
 #include "adapters/files/readers.hpp"
-#include "adapters/files/series.hpp"
 
 namespace crossgrain::files {
 namespace {

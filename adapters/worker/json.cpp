@@ -34,63 +34,42 @@ void fields(auto& io, ContactLaw& law) {
 
 template <int D>
 void fields(auto& io, MotionOf<D>& motion) {
-  io.required("kind", motion.kind);
-  io.required("angular_velocity", motion.angularVelocity);
-  io.required("velocity", motion.velocity);
-  io.required("amplitude", motion.amplitude);
-  io.required("frequency", motion.frequency);
-  io.required("radial_velocity", motion.radialVelocity);
-  io.required("radial_end", motion.radialEnd);
+  REQUIRED_FIELDS(io, motion.kind, motion.angularVelocity, motion.velocity, motion.amplitude,
+                  motion.frequency, motion.radialVelocity, motion.radialEnd);
 }
 
 void fields(auto& io, BottomPlate& plate) {
-  io.required("mu", plate.mu);
-  io.required("kb", plate.kb);
-  io.required("gb", plate.gb);
-  io.required("tau_m", plate.tauM);
-  io.required("gravity", plate.gravity);
-  io.required("spin", plate.spin);
+  REQUIRED_FIELDS(io, plate.mu, plate.kb, plate.gb, plate.tauM, plate.gravity, plate.spin);
 }
 
 template <int D>
 void fields(auto& io, PlaneOf<D>& plane) {
-  io.required("point", plane.point);
-  io.required("normal", plane.normal);
+  REQUIRED_FIELDS(io, plane.point, plane.normal);
 }
 
 void fields(auto& io, Cylinder& cylinder) {
-  io.required("point", cylinder.point);
-  io.required("axis", cylinder.axis);
-  io.required("radius", cylinder.radius);
+  REQUIRED_FIELDS(io, cylinder.point, cylinder.axis, cylinder.radius);
 }
 
 template <int D>
 void fields(auto& io, ShapeOf<D>& shape) {
-  io.required("kind", shape.kind);
-  io.required("vertices", shape.vertices);
-  io.required("rounding", shape.rounding);
+  REQUIRED_FIELDS(io, shape.kind, shape.vertices, shape.rounding);
 }
 
 template <int D>
 void fields(auto& io, WallBodyOf<D>& body) {
-  io.required("name", body.name);
-  io.required("centre", body.centre);
-  io.required("planes", body.planes);
+  REQUIRED_FIELDS(io, body.name, body.centre, body.planes);
   io.when(!body.cylinders.empty(), "cylinders", body.cylinders);
   io.required("motion", body.motion);
 }
 
 template <int D>
 void fields(auto& io, BoxOf<D>& box) {
-  io.required("low", box.low);
-  io.required("high", box.high);
-  io.required("periodic", box.periodic);
+  REQUIRED_FIELDS(io, box.low, box.high, box.periodic);
 }
 
 void fields(auto& io, Materials& materials) {
-  io.required("names", materials.names);
-  io.required("of_body", materials.ofBody);
-  io.required("laws", materials.laws);
+  REQUIRED_FIELDS(io, materials.names, materials.ofBody, materials.laws);
 }
 
 template <int D>
@@ -99,31 +78,20 @@ void fields(auto& io, SceneOf<D>& scene) {
   io.when(D == 3, "dimension", dimension);
   io.required("name", scene.name);
   io.when(!scene.shapes.empty(), "shapes", scene.shapes);
-  io.required("bodies", scene.bodies);
-  io.required("law", scene.law);
-  io.present("materials", scene.materials);
-  io.present("bottom", scene.bottom);
-  io.present("box", scene.box);
-  io.required("gravity", scene.gravity);
-  io.required("rotation", scene.rotation);
-  io.required("precision", scene.precision);
-  io.required("dt", scene.dt);
+  REQUIRED_FIELDS(io, scene.bodies, scene.law);
+  PRESENT_FIELDS(io, scene.materials, scene.bottom, scene.box);
+  REQUIRED_FIELDS(io, scene.gravity, scene.rotation, scene.precision, scene.dt);
   io("energy_ledger", scene.energyLedger);
 }
 
 template <int D>
 void fields(auto& io, BodySnapshotOf<D>& body) {
-  io.required("centre", body.centre);
-  io.required("angle", body.angle);
-  io.required("velocity", body.velocity);
-  io.required("angular_velocity", body.angularVelocity);
-  io.present("force", body.force);
-  io.present("torque", body.torque);
+  REQUIRED_FIELDS(io, body.centre, body.angle, body.velocity, body.angularVelocity);
+  PRESENT_FIELDS(io, body.force, body.torque);
 }
 
 void fields(auto& io, Energies& energies) {
-  io.required("kinetic", energies.kinetic);
-  io.required("elastic", energies.elastic);
+  REQUIRED_FIELDS(io, energies.kinetic, energies.elastic);
 }
 
 void fields(auto& io, EnergyLedger& ledger) {
@@ -138,11 +106,8 @@ void fields(auto& io, EnergyLedger& ledger) {
 
 template <int D>
 void fields(auto& io, SnapshotOf<D>& snapshot) {
-  io.required("position_time", snapshot.positionTime);
-  io.required("velocity_time", snapshot.velocityTime);
-  io.required("contact_time", snapshot.contactTime);
-  io.required("contact_interval", snapshot.contactInterval);
-  io.required("bodies", snapshot.bodies);
+  REQUIRED_FIELDS(io, snapshot.positionTime, snapshot.velocityTime, snapshot.contactTime,
+                  snapshot.contactInterval, snapshot.bodies);
   io.present("energies", snapshot.energies);
   io.present("energy_ledger", snapshot.ledger);
 }

@@ -82,9 +82,7 @@ void fields(auto& io, SettingSpec& spec) {
   if (std::isfinite(spec.most)) most = spec.most;
   io.required("name", spec.name);
   io.required("default", spec.defaultValue);
-  io.required("unit", spec.unit);
-  io.required("doc", spec.doc);
-  io.required("choices", spec.choices);
+  REQUIRED_FIELDS(io, spec.unit, spec.doc, spec.choices);
   io("least", spec.least);
   io.present("most", most);
   io("whole", spec.whole);
@@ -101,9 +99,7 @@ void fields(auto& io, SceneLimits& limits) {
   if (limits.planesAlongAxes) normals = PlaneNormals::axis;
   std::optional<RestitutionOf> restitution;
   if (limits.restitutionPerBody) restitution = RestitutionOf::body;
-  io.present("inertia", limits.inertia);
-  io.present("wall_motions", limits.wallMotions);
-  io.present("plane_motions", limits.planeMotions);
+  PRESENT_FIELDS(io, limits.inertia, limits.wallMotions, limits.planeMotions);
   io.present("plane_normals", normals);
   io.when(limits.cylinders, "cylinders", limits.cylinders);
   io.when(!limits.shapes.empty(), "shapes", limits.shapes);
@@ -122,19 +118,14 @@ void fields(auto& io, SceneLimits& limits) {
 void fields(auto& io, Capabilities& can) {
   std::map<std::string, Support> effects;
   for (const auto& [effect, support] : can.effects) effects[toString(effect)] = support;
-  io.required("version", can.version);
-  io.required("effects", effects);
-  io.required("law_options", can.lawOptions);
+  REQUIRED_FIELDS(io, can.version, effects, can.lawOptions);
   io.when(can.dimensions != std::vector<int>{2}, "dimensions", can.dimensions);
   io.when(can.periodic, "periodic", can.periodic);
-  io.required("precisions", can.precisions);
-  io.required("instant_contacts", can.instantContacts);
-  io.required("accumulated_contacts", can.accumulatedContacts);
-  io.required("warm_handover", can.warmHandover);
+  REQUIRED_FIELDS(io, can.precisions, can.instantContacts, can.accumulatedContacts,
+                  can.warmHandover);
   io("checkpoints", can.checkpoints);
   io.required("sliding_flags", can.slidingFlags);
-  io("energy_ledger", can.energyLedger);
-  io("tangential_restitution", can.tangentialRestitution);
+  FIELDS(io, can.energyLedger, can.tangentialRestitution);
   io.required("settings", can.settings);
   fields(io, can.limits);
   if (io.reading) {
@@ -145,10 +136,7 @@ void fields(auto& io, Capabilities& can) {
 }
 
 void fields(auto& io, Deviation& deviation) {
-  io.required("name", deviation.name);
-  io.required("value", deviation.value);
-  io.required("unit", deviation.unit);
-  io.required("note", deviation.note);
+  REQUIRED_FIELDS(io, deviation.name, deviation.value, deviation.unit, deviation.note);
 }
 
 /// A spring, dashpot or friction of strength 0 is none, which is null; a restitution of 0 is one.
@@ -179,15 +167,10 @@ void fields(auto& io, PairCoefficients& pair) {
 
 void fields(auto& io, EffectiveParameters& effective) {
   std::optional<double> lag = effective.velocityLag;
-  io.required("engine", effective.engine);
-  io.required("version", effective.version);
-  io.required("dt", effective.dt);
-  io.required("precision", effective.precision);
-  io.required("integrator", effective.integrator);
+  REQUIRED_FIELDS(io, effective.engine, effective.version, effective.dt, effective.precision,
+                  effective.integrator);
   io("velocity_lag", lag);
-  io.required("effects", effective.effects);
-  io.required("pairs", effective.pairs);
-  io.required("deviations", effective.deviations);
+  REQUIRED_FIELDS(io, effective.effects, effective.pairs, effective.deviations);
   if (io.reading) effective.velocityLag = lag.value_or(0.0);
 }
 /// @}

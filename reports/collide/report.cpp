@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "reports/common/causes.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::reports {
 

@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "reports/collide/report.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::reports {
 

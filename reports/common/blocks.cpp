@@ -8,7 +8,6 @@
 #include <set>
 
 #include "adapters/worker/json.hpp"
-#include "results/json_fields.hpp"
 #include "results/schema.hpp"
 
 namespace crossgrain::reports {

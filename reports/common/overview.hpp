@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 /// The matrix that a report opens with, engines and questions: its marks and colours, what follows
 /// from it, and its plain forms.
@@ -34,10 +34,7 @@ struct OverviewCell {
 
   void fields(auto& io) {
     io("state", cellWord(verdict));
-    io("value", value);
-    io("unit", unit);
-    io("shown", shown);
-    io("words", words);
+    FIELDS(io, value, unit, shown, words);
   }
 };
 
@@ -46,10 +43,7 @@ struct OverviewColumn {
   std::string asks;    ///< the question in a sentence
   std::string anchor;  ///< as of a cell
 
-  void fields(auto& io) {
-    io("name", name);
-    io("asks", asks);
-  }
+  void fields(auto& io) { FIELDS(io, name, asks); }
 };
 
 struct OverviewRow {
@@ -57,10 +51,7 @@ struct OverviewRow {
   bool isEngine = true;             ///< else an effect
   std::vector<OverviewCell> cells;  ///< one for each column
 
-  void fields(auto& io) {
-    io("name", name);
-    io("cells", cells);
-  }
+  void fields(auto& io) { FIELDS(io, name, cells); }
 };
 
 /// Words for a verdict where it means something else than everywhere.
@@ -82,13 +73,7 @@ struct Overview {
   std::vector<OverviewRow> rows;
   std::vector<std::string> conclusion;  ///< at most three sentences
 
-  void fields(auto& io) {
-    io("rows_are", rowsAre);
-    io("states", states);
-    io("columns", columns);
-    io("rows", rows);
-    io("conclusion", conclusion);
-  }
+  void fields(auto& io) { FIELDS(io, rowsAre, states, columns, rows, conclusion); }
 };
 
 /// How a verdict is shown everywhere: by its mark first, then by a colour. Without a verdict it is

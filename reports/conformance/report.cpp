@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::reports {
 

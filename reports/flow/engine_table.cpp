@@ -11,7 +11,7 @@
 #include <optional>
 #include <set>
 
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::reports {
 

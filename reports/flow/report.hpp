@@ -8,7 +8,7 @@
 
 #include "reports/common/blocks.hpp"
 #include "reports/flow/engine_runs.hpp"
-#include "results/rev.hpp"
+#include "results/compare.hpp"
 
 /// Comparisons, averages of snapshots and studies of ring widths. Columns of all tables:
 /// docs/results.md.

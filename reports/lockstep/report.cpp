@@ -10,7 +10,7 @@
 #include "reports/common/blocks.hpp"
 #include "reports/common/causes.hpp"
 #include "reports/common/engines.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::reports {
 
@@ -83,8 +83,8 @@ std::string nextOf(const LockstepFindings& findings) {
     if (row.verdict == Equivalence::notMeasured) unmeasured.push_back(row.engine);
   }
   if (!differ.empty())
-    return fmt::format("Next: see the first contact at which {} {}, in the report.",
-                       listed(differ), differ.size() == 1 ? "differs" : "differ");
+    return fmt::format("Next: see the first contact at which {} {}, in the report.", listed(differ),
+                       differ.size() == 1 ? "differs" : "differ");
   if (!undecided.empty())
     return fmt::format("Next: more starts for {}, e.g. --starts {}.", listed(undecided),
                        4 * findings.starts.size());

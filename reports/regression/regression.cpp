@@ -7,7 +7,7 @@
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/report.hpp"
 #include "reports/lockstep/report.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::reports {
 namespace {

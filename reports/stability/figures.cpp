@@ -6,8 +6,8 @@
 #include "adapters/worker/json.hpp"
 #include "reports/common/engines.hpp"
 #include "reports/stability/report.hpp"
-#include "results/json_fields.hpp"
 #include "results/scene_picture.hpp"
+#include "results/schema.hpp"
 #include "results/stability.hpp"
 
 namespace crossgrain::reports {

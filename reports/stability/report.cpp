@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "reports/common/blocks.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::reports {
 

@@ -224,14 +224,6 @@ class ContactWork {
   std::vector<std::optional<ContactAccount>> accounts;
 };
 
-template <int D>
-SnapshotOf<D> shown(Engine& engine, ContactReport contacts) {
-  if constexpr (D == 2)
-    return engine.snapshot(contacts);
-  else
-    return engine.snapshotInSpace(contacts);
-}
-
 }  // namespace
 
 template <int D>
@@ -240,13 +232,13 @@ std::vector<std::optional<ContactAccount>> recordContacts(Engine& engine,
                                                           double end) {
   const double dt = run.effective.dt;
   ContactWork<D> work(run);
-  work.add(shown<D>(engine, ContactReport::none));
+  work.add(snapshotOf<D>(engine, ContactReport::none));
   const auto steps = std::llround(end / dt);
   bool over = false;
   for (long long step = 1; step <= steps && !over; ++step) {
     throwIfInterrupted();
     engine.advance(static_cast<double>(step) * dt);
-    const SnapshotOf<D> now = shown<D>(engine, ContactReport::instant);
+    const SnapshotOf<D> now = snapshotOf<D>(engine, ContactReport::instant);
     if (now.contactInterval > 0.0) break;  // means over a step: no forces of one instant
     over = work.add(now) == 0 && work.allMet();
   }

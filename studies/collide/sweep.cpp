@@ -14,11 +14,11 @@
 #include "adapters/registry.hpp"
 #include "cases/time_step.hpp"
 #include "law/law_options.hpp"
-#include "oracle/collision_flight.hpp"
+#include "oracle/collision_end.hpp"
 #include "oracle/impact.hpp"
 #include "studies/collide/causes.hpp"
+#include "studies/collide/collide.hpp"
 #include "studies/collide/contact_account.hpp"
-#include "studies/collide/convex.hpp"
 #include "support/interrupt.hpp"
 
 namespace crossgrain::inline studies {
@@ -260,11 +260,7 @@ Outcomes runOutcomes(Engine& engine, const Capabilities& can, const Case& setup,
     engine.advance(end);
   SceneOf<D> under = scene;
   under.law = law;
-  SnapshotOf<D> after;
-  if constexpr (D == 2)
-    after = engine.snapshot(ContactReport::none);
-  else
-    after = engine.snapshotInSpace(ContactReport::none);
+  const SnapshotOf<D> after = snapshotOf<D>(engine, ContactReport::none);
   Outcomes outcomes;
   for (std::size_t k = 0; k < starts.size(); ++k) {
     const auto parted = convex ? convexEndOf<D>(setup, after, k, starts[k])

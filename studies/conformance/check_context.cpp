@@ -7,7 +7,7 @@
 
 #include "adapters/suitability.hpp"
 #include "law/law_options.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 
 namespace crossgrain::conformance {
 namespace {

@@ -10,7 +10,7 @@
 #include "stability/recording.hpp"
 #include "stability/transform.hpp"
 #include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 
 namespace crossgrain::conformance {
 namespace {

@@ -18,7 +18,7 @@
 #include "results/lockstep_text.hpp"
 #include "results/schema.hpp"
 #include "studies/collide/collide.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
 #include "studies/core/in_space.hpp"

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "adapters/engine.hpp"
 #include "adapters/scene.hpp"
 #include "law/contact_law.hpp"
 #include "studies/conformance/thesis_numbers.hpp"
@@ -35,16 +36,22 @@ inline ContactLaw hertzLaw() {
 
 // ---- parts of scenes ----------------------------------------------------------------------------
 
-/// A solid disk, J = ½ m a² [m, kg, m, m/s, rad/s].
-inline void addDisk(Scene& scene, double radius, double mass, const Vec2& position,
-                    const Vec2& velocity, double spin = 0.0) {
-  Disks& disks = scene.disks;
+/// A disk, or sphere, of J = q m a² [m, kg, m, m/s, rad/s].
+template <int D>
+void addRound(SceneOf<D>& scene, double radius, double mass, double q, const VecOf<D>& position,
+              const VecOf<D>& velocity, const SpinOf<D>& spin) {
+  DisksOf<D>& disks = scene.disks;
   disks.radius.push_back(radius);
   disks.mass.push_back(mass);
-  disks.inertia.push_back(solidInertia(mass, radius));
+  disks.inertia.push_back(q * mass * radius * radius);
   disks.position.push_back(position);
   disks.velocity.push_back(velocity);
   disks.spin.push_back(spin);
+}
+/// A solid disk.
+inline void addDisk(Scene& scene, double radius, double mass, const Vec2& position,
+                    const Vec2& velocity, double spin = 0.0) {
+  addRound<2>(scene, radius, mass, solidDisk, position, velocity, spin);
 }
 
 /// A body of one plane.
@@ -123,5 +130,39 @@ Scene withMaterials(Scene scene);
 
 /// Everything moved by that much [m].
 Scene shifted(Scene scene, const Vec2& by);
+
+// ---- laws that an engine declares ---------------------------------------------------------------
+// Of those the ones that checks try, each with constants under which its parts show in a collision
+// of small disks at Encounter::speed.
+
+/// Constants of dashpots that take away about as much, whatever they multiply: e_n is between 0.2
+/// and 0.9.
+void setDampers(ContactLaw& law, const std::string& damper);
+
+/// That normal law with the engine's own conventions.
+ContactLaw lawOf(const Capabilities& can, const std::string& normal);
+
+/// The law that resists rolling like that: with spins of some 10 rad/s springs stick and slip.
+/// Constants are in the units of the conventions that it has.
+ContactLaw withRolling(ContactLaw law, RollingLaw rolling);
+
+/// The law with that attraction: a fifth of the largest force, area two fifths of the stiffness.
+ContactLaw withCohesion(ContactLaw law, CohesionLaw cohesion);
+
+/// Kinds of rolling resistance and of cohesion that the engine declares; empty: none.
+std::vector<RollingLaw> rollingLaws(const Capabilities& can);
+std::vector<CohesionLaw> cohesionLaws(const Capabilities& can);
+
+/// Whether that attraction goes with the law's elastic force: JKR's is one of Hertz' law.
+bool goesWith(CohesionLaw cohesion, NormalLaw normal);
+
+/// Every law with rolling resistance and every one with cohesion, each with the first normal law
+/// that it goes with, alone and with rolling resistance where the engine has both.
+std::vector<ContactLaw> resistingLaws(const Capabilities& can);
+
+/// A scene that calls for every effect there is: of a soft law that also resists rolling and
+/// coheres, as the engine does where it does.
+/// @param law  its soft part; of a rigid one the thesis' law stands for it
+Scene fullScene(const Capabilities& can, const ContactLaw& law);
 
 }  // namespace crossgrain::conformance

@@ -8,7 +8,7 @@
 #include "law/law_options.hpp"
 #include "stability/recording.hpp"
 #include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 #include "studies/core/mirrors.hpp"
 
 namespace crossgrain::conformance {

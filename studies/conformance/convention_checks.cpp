@@ -12,10 +12,10 @@
 #include "law/law_options.hpp"
 #include "oracle/impact.hpp"
 #include "results/lockstep_text.hpp"
-#include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
-#include "studies/lockstep/rules.hpp"
 #include "studies/causes/changes.hpp"
+#include "studies/conformance/check_context.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
+#include "studies/lockstep/rules.hpp"
 #include "studies/lockstep/terms.hpp"
 
 namespace crossgrain::conformance {

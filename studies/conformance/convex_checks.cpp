@@ -6,7 +6,7 @@
 #include <span>
 #include <tuple>
 
-#include "oracle/convex_contact.hpp"
+#include "oracle/convex_impact.hpp"
 #include "studies/conformance/check_context.hpp"
 
 namespace crossgrain::conformance {

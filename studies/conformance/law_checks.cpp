@@ -6,7 +6,7 @@
 
 #include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 #include "studies/conformance/meeting.hpp"
 
 namespace crossgrain::conformance {

@@ -9,7 +9,7 @@
 
 #include "adapters/declared_law.hpp"
 #include "cases/collision_scene.hpp"
-#include "oracle/collision_flight.hpp"
+#include "oracle/collision_end.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 

@@ -10,7 +10,7 @@
 #include "oracle/calibration.hpp"
 #include "oracle/collision_end.hpp"
 #include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 
 namespace crossgrain::conformance {
 namespace {
@@ -136,14 +136,9 @@ SpaceScene movedScene(const MovedPair& pair, const ContactLaw& law) {
   scene.name = pair.name;
   scene.law = law;
   scene.dt = movedTime / movedSteps;
-  for (const int side : {0, 1}) {
-    scene.disks.radius.push_back(pair.radii[side]);
-    scene.disks.mass.push_back(heavyMass);
-    scene.disks.inertia.push_back(0.4 * heavyMass * pair.radii[side] * pair.radii[side]);
-    scene.disks.position.push_back(pair.position[side]);
-    scene.disks.velocity.push_back(pair.velocity[side]);
-    scene.disks.spin.push_back(pair.spin[side]);
-  }
+  for (const int side : {0, 1})
+    addRound<3>(scene, pair.radii[side], heavyMass, 0.4, pair.position[side], pair.velocity[side],
+                pair.spin[side]);
   return scene;
 }
 

@@ -7,7 +7,7 @@
 #include "adapters/suitability.hpp"
 #include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::conformance {

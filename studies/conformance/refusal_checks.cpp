@@ -4,7 +4,7 @@
 #include "adapters/suitability.hpp"
 #include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 #include "studies/core/engine_access.hpp"
 #include "support/bad_input.hpp"
 

@@ -9,7 +9,7 @@
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 #include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 
 namespace crossgrain::conformance {
 namespace {

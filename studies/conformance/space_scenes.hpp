@@ -47,13 +47,7 @@ inline double roundedImpact(const CheckContext& c, double place, double speed) {
 template <int D>
 void addBody(SceneOf<D>& scene, const VecOf<D>& place, const VecOf<D>& velocity,
              const SpinOf<D>& spin) {
-  DisksOf<D>& disks = scene.disks;
-  disks.radius.push_back(radius);
-  disks.mass.push_back(mass);
-  disks.inertia.push_back((D == 2 ? 0.5 : 0.4) * mass * radius * radius);
-  disks.position.push_back(place);
-  disks.velocity.push_back(velocity);
-  disks.spin.push_back(spin);
+  addRound<D>(scene, radius, mass, D == 2 ? solidDisk : 0.4, place, velocity, spin);
 }
 
 }  // namespace crossgrain::conformance

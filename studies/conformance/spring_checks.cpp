@@ -8,7 +8,7 @@
 #include "adapters/declared_law.hpp"
 #include "law/law_options.hpp"
 #include "studies/conformance/check_context.hpp"
-#include "studies/conformance/declared_laws.hpp"
+#include "studies/conformance/conformance_scenes.hpp"
 #include "studies/conformance/moved_pairs.hpp"
 
 namespace crossgrain::conformance {

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 #include "studies/core/run_store.hpp"
 #include "support/interrupt.hpp"
 #include "support/task_pool.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "adapters/registry.hpp"
-#include "results/json_fields.hpp"
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"

@@ -11,7 +11,7 @@
 
 #include "cases/case.hpp"
 #include "cases/case_keys.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 #include "support/folder_lock.hpp"
 #include "support/scratch_folder.hpp"
 

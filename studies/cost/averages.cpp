@@ -9,7 +9,7 @@
 #include "averaging/statistics.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
-#include "results/agreement.hpp"
+#include "results/flow_numbers.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
 #include "studies/flow/endpoint_values.hpp"

@@ -29,11 +29,7 @@ struct CollisionLimit {
 };
 
 void fields(auto& io, CollisionLimit& limit) {
-  io("setting", limit.setting);
-  io("ends", limit.ends);
-  io("error", limit.error);
-  io("model", limit.model);
-  io("reason", limit.reason);
+  FIELDS(io, limit.setting, limit.ends, limit.error, limit.model, limit.reason);
 }
 
 /// The oracle of the law that the engine declares; of a law without one the engine itself at

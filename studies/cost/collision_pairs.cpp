@@ -9,7 +9,7 @@
 #include "cases/collision_scene.hpp"
 #include "cases/flow.hpp"
 #include "cases/time_step.hpp"
-#include "oracle/collision_flight.hpp"
+#include "oracle/collision_end.hpp"
 
 namespace crossgrain::inline studies {
 

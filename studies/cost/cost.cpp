@@ -12,7 +12,7 @@
 #include "results/schema.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/cost/analysis.hpp"
 #include "studies/cost/averages.hpp"
 #include "studies/cost/collision.hpp"

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "results/step_time.hpp"
+#include "results/cost.hpp"
 #include "studies/cost/study.hpp"
 
 namespace crossgrain::inline studies {

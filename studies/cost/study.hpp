@@ -66,9 +66,7 @@ void fields(auto& io, CostRun& run) {
   io("dt_s", run.dt);
   io("wall_s", run.wallSeconds);
   io("cpu_s", run.cpuSeconds);
-  io("steps", run.steps);
-  io("contact_evaluations", run.contactEvaluations);
-  io("numbers", run.numbers);
+  FIELDS(io, run.steps, run.contactEvaluations, run.numbers);
   io("status", run.status, costStatusNames);
   io("reason", run.reason);
 }

@@ -9,7 +9,7 @@
 #include "cases/flow.hpp"
 #include "law/law_options.hpp"
 #include "results/schema.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/flow/campaign.hpp"
 #include "studies/flow/ensemble.hpp"
 

@@ -48,9 +48,7 @@ std::optional<TimeRatio> timeRatio(const StepTimes& time, const StepTimes& whole
 std::optional<double> meanStep(const StepTimes& time);
 
 void fields(auto& io, StepTimes& times) {
-  io("seconds", times.seconds);
-  io("contacts", times.contacts);
-  io("failure", times.failure);
+  FIELDS(io, times.seconds, times.contacts, times.failure);
   io.when(times.refused, "refused", times.refused);
 }
 

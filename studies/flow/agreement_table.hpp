@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cases/case.hpp"
-#include "results/agreement.hpp"
+#include "results/flow_numbers.hpp"
 #include "studies/flow/paired_runs.hpp"
 
 namespace crossgrain::inline studies {

@@ -9,7 +9,7 @@
 #include "cases/endpoints.hpp"
 #include "results/schema.hpp"
 #include "studies/core/executor.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/flow/averages.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/ensemble.hpp"
@@ -117,7 +117,7 @@ CompareResults averageSnapshots(const Case& setup, const std::vector<std::filesy
 
 namespace {
 
-const SharedOptions taken = {
+const SharedOptions averageTakes = {
     .input = SharedOptions::Input::files,
     .inputIs = "snapshots: HDF5 files, or result files of other programs (docs/import.md)",
     .engines = false};
@@ -145,7 +145,7 @@ Outcome unjudged(const Results&, const CommandLine&, const AverageOptions&) {
 
 const Study<AverageOptions, CompareResults> averageStudy = {
     "average",
-    taken,
+    averageTakes,
     Keeps::nothing,
     optionsOf,
     casesOf,
@@ -156,7 +156,8 @@ const Study<AverageOptions, CompareResults> averageStudy = {
     },
     unjudged};
 
-const Study<AverageOptions, RevResults> revStudy = {
-    "average --rev", taken, Keeps::nothing, optionsOf, casesOf, nullptr, averagePerWidth, unjudged};
+const Study<AverageOptions, RevResults> revStudy = {"average --rev", averageTakes, Keeps::nothing,
+                                                    optionsOf,       casesOf,      nullptr,
+                                                    averagePerWidth, unjudged};
 
 }  // namespace crossgrain::inline studies

@@ -7,7 +7,6 @@
 
 #include "cases/case.hpp"
 #include "results/compare.hpp"
-#include "results/rev.hpp"
 #include "studies/core/study.hpp"
 
 namespace crossgrain::inline studies {

@@ -15,7 +15,7 @@
 #include "cases/time_step.hpp"
 #include "results/run.hpp"
 #include "studies/core/engine_running.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/flow/endpoint_values.hpp"
 #include "studies/flow/frame.hpp"
 #include "studies/flow/run.hpp"

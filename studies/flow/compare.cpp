@@ -12,7 +12,7 @@
 #include "cases/flow.hpp"
 #include "results/lockstep_text.hpp"
 #include "results/schema.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/flow/agreement_table.hpp"
 #include "studies/flow/campaign.hpp"
 #include "studies/flow/causes.hpp"

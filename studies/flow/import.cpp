@@ -7,7 +7,7 @@
 
 #include "adapters/files/frame.hpp"
 #include "studies/core/executor.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/flow/snapshot_file.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"

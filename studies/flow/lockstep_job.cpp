@@ -9,7 +9,7 @@
 #include "results/lockstep_text.hpp"
 #include "results/schema.hpp"
 #include "studies/core/executor.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/lockstep/late_windows.hpp"
 #include "studies/lockstep/lockstep.hpp"
 #include "studies/lockstep/rules.hpp"

@@ -20,21 +20,14 @@ struct FoundOption {
   /// Whether none of the declared ones is among those that fit.
   bool contradicts() const;
 
-  void fields(auto& io) {
-    io("name", name);
-    io("values", values);
-    io("declared", declared);
-  }
+  void fields(auto& io) { FIELDS(io, name, values, declared); }
 };
 
 struct FoundConstant {
   std::string name;
   double change = 0.0;  ///< relative to the case's
 
-  void fields(auto& io) {
-    io("name", name);
-    io("change", change);
-  }
+  void fields(auto& io) { FIELDS(io, name, change); }
 };
 
 /// The mirror that follows an engine most closely, found without asking what the engine declares.
@@ -52,10 +45,7 @@ struct Identification {
   bool closeEnough() const;
 
   void fields(auto& io) {
-    io("options", options);
-    io("constants", constants);
-    io("missing", missing);
-    io("declared_missing", declaredMissing);
+    FIELDS(io, options, constants, missing, declaredMissing);
     io("separation_before", before);
     io("separation_left", left);
     io("time_s", time);

@@ -9,7 +9,7 @@
 #include "results/head.hpp"
 #include "results/lockstep_findings.hpp"
 #include "studies/lockstep/rules.hpp"
-#include "studies/regression/record_file.hpp"
+#include "studies/regression/recording.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/scratch_folder.hpp"

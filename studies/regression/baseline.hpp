@@ -73,7 +73,7 @@ struct Baseline {
   std::vector<BaselineEngine> engines;
 };
 
-/// A file of records (record_file.hpp; runs/README.md lists them). The same baseline gives the same
+/// A file of records (recording.hpp; runs/README.md lists them). The same baseline gives the same
 /// bytes. @throws OutputError
 void writeBaseline(const Baseline& baseline, const std::filesystem::path& file);
 

@@ -20,7 +20,7 @@
 #include "stability/measures.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/executor.hpp"
-#include "studies/core/study_cases.hpp"
+#include "studies/core/study.hpp"
 #include "studies/stability/run.hpp"
 #include "studies/stability/transforms.hpp"
 #include "support/bad_input.hpp"

@@ -1,5 +1,5 @@
 #include "cases/collision_scene.hpp"
-#include "oracle/collision_flight.hpp"
+#include "oracle/collision_end.hpp"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 
 #include "adapters/registry.hpp"
 #include "adapters/worker/serve.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 #include "studies/conformance/check_context.hpp"
 #include "studies/conformance/conformance.hpp"
 #include "support/scratch_folder.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "law/cohesion.hpp"
-#include "oracle/collision_flight.hpp"
+#include "oracle/collision_end.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 #include "random_pair.hpp"

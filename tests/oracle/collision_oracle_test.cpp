@@ -7,7 +7,7 @@
 
 #include "adapters/grain.hpp"
 #include "cases/collision_scene.hpp"
-#include "oracle/collision_flight.hpp"
+#include "oracle/collision_end.hpp"
 #include "tests/support/pairs.hpp"
 
 namespace {

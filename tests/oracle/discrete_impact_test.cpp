@@ -1,4 +1,4 @@
-#include "oracle/discrete_impact.hpp"
+#include "oracle/impact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "oracle/collision_oracle.hpp"
-#include "oracle/impact.hpp"
 #include "tests/support/pairs.hpp"
 
 namespace {

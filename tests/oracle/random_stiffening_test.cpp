@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "oracle/collision_flight.hpp"
+#include "oracle/collision_end.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 #include "random_pair.hpp"

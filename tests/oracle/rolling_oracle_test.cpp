@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "oracle/collision_flight.hpp"
+#include "oracle/collision_end.hpp"
 #include "oracle/collision_oracle.hpp"
 #include "oracle/impact.hpp"
 #include "random_pair.hpp"

@@ -12,7 +12,7 @@
 #include "reports/common/text.hpp"
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/flow/report.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 #include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "reports/common/overview.hpp"
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 namespace crossgrain::reports {
 

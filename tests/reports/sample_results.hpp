@@ -8,7 +8,6 @@
 #include "results/compare.hpp"
 #include "results/cost.hpp"
 #include "results/effects.hpp"
-#include "results/rev.hpp"
 #include "results/stability.hpp"
 
 /// Made-up results in the layout of docs/results.md, for tests of the report and for looking at

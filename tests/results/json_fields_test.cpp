@@ -1,5 +1,5 @@
 // How structs become JSON and come back.
-#include "results/json_fields.hpp"
+#include "results/schema.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Figures of timings of growing scenes, by hand.
-#include "results/step_time.hpp"
+#include "results/cost.hpp"
 
 #include <gtest/gtest.h>
 

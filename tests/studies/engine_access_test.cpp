@@ -17,7 +17,6 @@
 #include "law/law_options.hpp"
 #include "studies/core/engine_access.hpp"
 #include "studies/core/mirrors.hpp"
-#include "studies/core/shared_conventions.hpp"
 #include "tests/studies/quick_cell.hpp"
 #include "tests/support/refusal.hpp"
 

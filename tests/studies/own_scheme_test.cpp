@@ -1,5 +1,5 @@
 // Engines against the discrete oracle of their own scheme, right ones and ones with a fault.
-#include "studies/collide/own_scheme.hpp"
+#include "studies/collide/score.hpp"
 
 #include <gtest/gtest.h>
 
