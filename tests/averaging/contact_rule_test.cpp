@@ -13,10 +13,7 @@ using test::Instant;
 using test::randomInstant;
 
 Contacts onePair(double normalForce, double tangentialForce) {
-  Contacts pair;
-  pair.normalForce = {normalForce};
-  pair.tangentialForce = {tangentialForce};
-  return pair;
+  return Contacts{.normalForce = {normalForce}, .tangentialForce = {tangentialForce}};
 }
 
 TEST(ContactRule, AForceOfEitherKindMakesAContact) {

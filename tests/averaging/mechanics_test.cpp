@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <random>
 
 #include "tests/averaging/scenes.hpp"
 #include "tests/support/thesis.hpp"

@@ -34,9 +34,7 @@ void Instant::addDisk(const Vec2& position, double radius, double mass, const Ve
 }
 
 void Instant::addWall(const std::string& name, const std::vector<Vec2>& places, double radius) {
-  WallBody body;
-  body.name = name;
-  body.diskPosition = places;
+  WallBody body{.name = name, .diskPosition = places};
   body.diskRadius.assign(places.size(), radius);
   scene.bodies.push_back(body);
   snapshot.bodies.emplace_back();

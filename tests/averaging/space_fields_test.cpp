@@ -32,9 +32,7 @@ struct SpaceInstant {
   }
   /// A body of one wall sphere, and one of a plane; their ids follow the spheres'.
   void addWallSphere(double a) {
-    auto& body = scene.bodies.emplace_back();
-    body.diskRadius = {a};
-    body.diskPosition = {Vec3::Zero()};
+    scene.bodies.push_back({.diskPosition = {Vec3::Zero()}, .diskRadius = {a}});
   }
   void addPlane() { scene.bodies.emplace_back().planes.emplace_back(); }
   void addContact(std::int32_t i, std::int32_t j, const Vec3& normal, double overlap,

@@ -5,13 +5,13 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <random>
 #include <stdexcept>
 
 #include "averaging/areas.hpp"
 #include "averaging/rings.hpp"
 #include "tests/averaging/scenes.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/thesis.hpp"
 
 namespace crossgrain {
@@ -99,13 +99,10 @@ TEST(Rings, RefusesWhatIsNoRing) {
   EXPECT_THROW(Rings(0.2, 0.1, 5, 1.0, 1.0), std::invalid_argument);
   EXPECT_THROW(Rings(0.1, 0.2, 0, 1.0, 1.0), std::invalid_argument);
   EXPECT_THROW(Rings(0.1, 0.2, 5, 0.0, 1.0), std::invalid_argument);
-  try {
-    Rings({0.1, 0.1}, 1.0, 1.0);
-    FAIL() << "of no width";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "rings: the outer radius must be larger than the inner one, got 0.1");
-  }
+  EXPECT_EQ(crossgrain::test::refusalOf<std::invalid_argument>([] {
+              Rings({0.1, 0.1}, 1.0, 1.0);
+            }),
+            "rings: the outer radius must be larger than the inner one, got 0.1");
 }
 
 TEST(Weights, NamesGoBothWays) {

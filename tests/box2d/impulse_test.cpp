@@ -144,9 +144,7 @@ TEST(Box2dImpulse, AccumulatedImpulsesAreWhatTheDiskReceived) {
 /// and held back by µ m g.
 TEST(Box2dImpulse, SumsOfALastingContactAreThoseOfEveryStep) {
   constexpr double g = 10.0, interval = 0.02;
-  Scene scene;
-  scene.law = rigidLaw(0.0, 0.0, thesis.mu);
-  scene.gravity = {0.0, -g};
+  Scene scene{.law = rigidLaw(0.0, 0.0, thesis.mu), .gravity = {0.0, -g}};
   addDisk(scene, smallRadius, smallMass, Vec2(0, smallRadius), Vec2(1.0, 0.0));
   WallBody floor;
   floor.planes = {{{0.0, 0.0}, {0.0, 1.0}}};
@@ -168,10 +166,7 @@ TEST(Box2dImpulse, SumsOfALastingContactAreThoseOfEveryStep) {
 
 /// A convex body at rest on a plane, or about to fall on it.
 Scene onePlane(const ShapeOf<2>& shape, double en, double height) {
-  Scene scene;
-  scene.law = rigidLaw(en, 0.0, 0.5);
-  scene.dt = 5e-4;
-  scene.shapes = {shape};
+  Scene scene{.shapes = {shape}, .law = rigidLaw(en, 0.0, 0.5), .dt = 5e-4};
   const double mass = 0.5;
   scene.disks = {{shape.reach()},
                  {mass},

@@ -11,9 +11,7 @@ constexpr double fine = smallContactTime / 1000.0;
 constexpr double slow = 1e-4;  // [m/s]: overlaps of 1e-7 m, and the normal stays where it is
 
 Scene onePair(const ContactLaw& law, double psi, double dt) {
-  Scene scene;
-  scene.law = law;
-  scene.dt = dt;
+  Scene scene{.law = law, .dt = dt};
   addPair(scene, Vec2::Zero(), slow, psi, 1e-9);
   return scene;
 }
@@ -34,9 +32,7 @@ TEST(Box2dPenalty, EnergyIsInMotionAndSprings) {
 }
 
 TEST(Box2dPenalty, SlowDiskMoves) {
-  Scene scene;
-  scene.law = box2dLaw();
-  scene.dt = 4e-5;
+  Scene scene{.law = box2dLaw(), .dt = 4e-5};
   addDisk(scene, smallRadius, smallMass, Vec2(0.2, 0), Vec2(1e-6, 0));
   const auto engine = makeBox2dPenalty();
   const double t = engine->load(scene, {}).dt * 25000;

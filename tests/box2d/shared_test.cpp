@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tests/box2d/scenes.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace crossgrain::test {
 namespace {
@@ -22,12 +23,7 @@ class BothBox2dEngines : public testing::TestWithParam<Kind> {
  protected:
   std::unique_ptr<Engine> engine() const { return GetParam().make(); }
 
-  Scene empty() const {
-    Scene scene;
-    scene.law = box2dLaw();
-    scene.dt = GetParam().dt;
-    return scene;
-  }
+  Scene empty() const { return Scene{.law = box2dLaw(), .dt = GetParam().dt}; }
 };
 
 TEST_P(BothBox2dEngines, RestsOnAPlane_AndWeighsOnIt) {
@@ -105,12 +101,7 @@ TEST_P(BothBox2dEngines, RefusesWhatBox2dsFloatsCannotHold) {
     addDisk(scene, smallRadius, smallMass, Vec2::Zero(), Vec2::Zero());
     addDisk(scene, smallRadius, smallMass, Vec2(1.0, 0.0), Vec2::Zero());
     change(scene);
-    std::string refusal;
-    try {
-      e->load(scene, {});
-    } catch (const UnsupportedScene& refused) {
-      refusal = refused.what();
-    }
+    const std::string refusal = refusalOf<UnsupportedScene>([&] { e->load(scene, {}); });
     EXPECT_EQ(refusal.empty(), std::string_view(name).empty()) << name;
     EXPECT_NE(refusal.find(name), std::string::npos) << refusal;
   }

@@ -9,16 +9,14 @@
 #include "cases/time_step.hpp"
 #include "support/bad_input.hpp"
 #include "tests/support/laws.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace {
 
 using namespace crossgrain;
 
 Case quickCell() {
-  Case setup;
-  setup.name = "cell";
-  setup.file = "cell.toml";
-  setup.law = test::thesisLaw();
+  Case setup{.name = "cell", .file = "cell.toml", .law = test::thesisLaw()};
   couetteIn(setup).cell = {0.03, 0.075, test::wallRadius, 2.5e-3, 6e-3, 1.0};
   couetteIn(setup).particles.small = 190;
   couetteIn(setup).particles.large = 30;
@@ -155,12 +153,9 @@ TEST(Couette, BadStart_NamesTheDisks) {
     packing.disks.position[i] = Vec2(0.05 + 0.01 * static_cast<double>(i), 0.0);
   packing.disks.position[7] = packing.disks.position[3] + Vec2(1e-3, 0.0);
   const auto message = [&] {
-    try {
+    return test::refusalOf([&] {
       checkStart(couetteScene(setup, packing, 4e-5), couetteIn(setup).particles, "my.h5");
-    } catch (const BadInput& bad) {
-      return std::string(bad.what());
-    }
-    return std::string("accepted");
+    });
   };
   EXPECT_EQ(
       message(),
@@ -185,12 +180,7 @@ TEST(CheckStart, SphereOutsideACylinder_IsNamedWithItsDistance) {
   Particles particles;
   particles.smallRadius = 0.002;
   const auto message = [&] {
-    try {
-      checkStart(scene, particles, "my.toml");
-    } catch (const BadInput& bad) {
-      return std::string(bad.what());
-    }
-    return std::string("accepted");
+    return test::refusalOf([&] { checkStart(scene, particles, "my.toml"); });
   };
   const std::string outside = "my.toml: sphere 0 lies outside cylinder 0: ";
   EXPECT_EQ(message(), outside + "0.045 m from its axis, with a radius of 0.04 m");

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 
 #include "tests/support/two_disks.hpp"
@@ -23,9 +22,7 @@ Case swingingBox() {
   assemblyIn<2>(setup).walls[1].position = {{1.0, 0.0}};
   assemblyIn<2>(setup).walls[1].radius = 0.1;
   assemblyIn<2>(setup).walls[1].motion = {.kind = Motion::Kind::rotating, .angularVelocity = pi};
-  Region& region = setup.region.emplace();
-  region.from = 1.0;
-  region.snapshots = 4;
+  setup.region = Region{.from = 1.0, .snapshots = 4};
   return setup;
 }
 
@@ -84,9 +81,7 @@ TEST(Flow, TellsStartsByTheirFixedDisksToo) {
   const Packing fixed = packing(setup, 0);
   EXPECT_NE(fixed.hash, none);
   EXPECT_EQ(expectedPacking(setup, 0, 1e-3).hash, fixed.hash);
-  Snapshot now;
-  now.position = fixed.disks.position;
-  now.velocity = fixed.disks.velocity;
+  Snapshot now{.position = fixed.disks.position, .velocity = fixed.disks.velocity};
   now.bodies.resize(2);
   EXPECT_EQ(packingAt(fixed, flowScene(setup, fixed, 1e-3), now).hash, fixed.hash);
   assemblyIn<2>(setup).starts.fixedRadius = {0.2};

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "adapters/engine.hpp"
@@ -13,6 +12,7 @@
 #include "cases/loader.hpp"
 #include "support/data_folder.hpp"
 #include "support/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace {
 
@@ -118,14 +118,9 @@ TEST(LargerScene, WallsAndGravity_LeaveTheDirectionsThatTheyDoNotLieAcross) {
   EXPECT_EQ(two.bodies.size(), 3u);
   EXPECT_FALSE(two.box);
   scene.bodies.back().planes.push_back({Vec2::Zero(), Vec2::UnitX()});
-  try {
-    besideItself(scene, 2);
-    FAIL() << "no direction is free";
-  } catch (const UnsupportedScene& refusal) {
-    EXPECT_STREQ(refusal.what(),
-                 "the scene cannot be made larger: a plane of \"floor\" lies across x, gravity "
-                 "lies across y");
-  }
+  EXPECT_EQ(test::refusalOf<UnsupportedScene>([&] { besideItself(scene, 2); }),
+            "the scene cannot be made larger: a plane of \"floor\" lies across x, gravity lies "
+            "across y");
 }
 
 }  // namespace

@@ -61,13 +61,8 @@ TEST_F(LoaderMerging, FaultOfOneVariant_NamesItAndSparesThoseThatAreChosen) {
                       "[[variants]]\nname = \"wrong\"\ncell.omega = \"x\"\n"
                       "[[variants]]\nname = \"fast\"\ncell.omega = 2.0\n");
   const auto fault = [](const std::vector<std::string>& overrides,
-                        const std::optional<std::string>& only) -> std::string {
-    try {
-      loadCase("v.toml", overrides, {}, Starts::made, only);
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "";
+                        const std::optional<std::string>& only) {
+    return refusalOf([&] { loadCase("v.toml", overrides, {}, Starts::made, only); });
   };
   EXPECT_TRUE(fault({}, {}).ends_with("(variant wrong)")) << fault({}, {});
   EXPECT_TRUE(fault({}, "wrong").ends_with("(variant wrong)"));

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,6 +8,8 @@
 #include <vector>
 
 #include "cases/loader.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::test {
 
@@ -16,25 +17,16 @@ namespace crossgrain::test {
 /// files as they were written.
 class InFolder : public ::testing::Test {
  protected:
-  void SetUp() override {
-    before_ = std::filesystem::current_path();
-    const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              ("crossgrain-" + std::to_string(::getpid()) + "-" + info->name());
-    std::filesystem::create_directories(folder_);
-    std::filesystem::current_path(folder_);
-  }
-  void TearDown() override {
-    std::filesystem::current_path(before_);
-    std::filesystem::remove_all(folder_);
-  }
+  void SetUp() override { std::filesystem::current_path(folder_.path()); }
+  void TearDown() override { std::filesystem::current_path(before_); }
   static void write(const std::filesystem::path& file, const std::string& text) {
     if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
     std::ofstream(file) << text;
   }
 
  private:
-  std::filesystem::path before_, folder_;
+  const std::filesystem::path before_ = std::filesystem::current_path();
+  const TemporaryFolder folder_;
 };
 
 /// A couette case with nothing left out that must be there, and nothing else.
@@ -103,12 +95,7 @@ inline std::string withLine(const std::string& text, int number, const std::stri
 /// The message that loading the file ends in; empty if it loads.
 inline std::string messageOf(const std::filesystem::path& file,
                              const std::vector<std::string>& overrides = {}) {
-  try {
-    loadCase(file, overrides);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return {};
+  return refusalOf([&] { loadCase(file, overrides); });
 }
 
 /// Of a case file of that text.

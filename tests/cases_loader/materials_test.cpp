@@ -1,7 +1,6 @@
 // Materials: pairs of bodies with laws of their own.
 #include "cases/materials.hpp"
 
-#include <cmath>
 
 #include "adapters/effects.hpp"
 #include "cases/assembly_scene.hpp"

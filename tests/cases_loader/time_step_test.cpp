@@ -46,9 +46,7 @@ TEST(TimeStep, IsGivenOrAFractionOfTheLightestContact) {
 }
 
 TEST(TimeStep, Collision_OnePerSweep) {
-  Case c;
-  c.source = Collision();
-  c.law = thesisLaw();
+  Case c{.source = Collision(), .law = thesisLaw()};
   collisionIn(c).mass[0] = collisionIn(c).mass[1] = smallMass;
   collisionIn(c).stepsPerContact = {50, 1000};
   const auto steps = collisionTimeSteps(c);
@@ -58,9 +56,7 @@ TEST(TimeStep, Collision_OnePerSweep) {
 }
 
 TEST(TimeStep, Hertz_IsAFractionOfTheFastestImpact) {
-  Case c;
-  c.source = Collision();
-  c.law = thesisLaw();
+  Case c{.source = Collision(), .law = thesisLaw()};
   c.law.normal = NormalLaw::hertz;
   c.law.kn = 1e6;
   c.law.gn = 0.0;
@@ -203,9 +199,7 @@ TEST(StepLimit, EngineBelowIt_Stays_BeyondIt_BlowsUp) {
     c.law.mu = 1e6;
     c.law.conventions.dampingVelocity = term.velocity;
     c.law.conventions.springUpdate = term.update;
-    DiskGroup disk;
-    disk.radius = 5e-4;
-    disk.mass = 7.85e-6;
+    DiskGroup disk{.radius = 5e-4, .mass = 7.85e-6};
     const double resting = disk.mass * 1e4 / c.law.kn;  // so deep that no contact is lost
     disk.position = {0.0, disk.radius - (term.tangential ? 1.0 : 1.0 + 1e-9) * resting};
     disk.velocity = {term.tangential ? 1e-9 : 0.0, 0.0};

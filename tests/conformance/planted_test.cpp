@@ -18,9 +18,7 @@ constexpr const char* disks = "faults/planted_engine";
 constexpr const char* spheres = "faults/planted_spheres";
 
 EngineEntry plantedEntry(const std::string& engine, const std::string& fault) {
-  EngineEntry entry;
-  entry.name = "planted";
-  entry.summary = "has a planted fault";
+  EngineEntry entry{.name = "planted", .summary = "has a planted fault"};
   entry.command = [=] {
     std::vector<std::string> call = {std::string(CROSSGRAIN_TEST_PROGRAMS "/") + engine};
     std::istringstream words(fault);

@@ -9,7 +9,6 @@ import csv
 import json
 import pathlib
 import shutil
-import sys
 
 import planted_faults
 import table

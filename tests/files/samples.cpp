@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <functional>
 
 #include "support/hdf5_file.hpp"
 #include "tests/support/refusal.hpp"

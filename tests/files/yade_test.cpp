@@ -8,8 +8,6 @@
 #include <array>
 #include <cstring>
 
-#include <fstream>
-#include <sstream>
 
 #include "tests/files/samples.hpp"
 

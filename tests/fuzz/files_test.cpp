@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "adapters/files/frame.hpp"
+#include "support/files.hpp"
 #include "tests/files/samples.hpp"
 #include "tests/fuzz/reading.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -84,7 +85,7 @@ Corpus samples(std::string format, const std::vector<std::string>& names, FileOp
                bool binary = false) {
   Corpus corpus{std::move(format), {}, std::move(options), binary};
   for (const std::string& name : names)
-    corpus.files.emplace_back(name, test::contentOf(fs::path(CROSSGRAIN_SAMPLES) / name));
+    corpus.files.emplace_back(name, readFile(fs::path(CROSSGRAIN_SAMPLES) / name).value());
   return corpus;
 }
 
@@ -164,7 +165,7 @@ TEST(DamagedFiles, Csv) {
 TEST(DamagedFiles, OnDem) {
   const TemporaryFolder folder;
   files::sampled::writeOnDem(folder.path() / "a.vtkhdf");
-  readDamaged({{"ondem", {{"a.vtkhdf", test::contentOf(folder.path() / "a.vtkhdf")}}, {}, true}},
+  readDamaged({{"ondem", {{"a.vtkhdf", readFile(folder.path() / "a.vtkhdf").value()}}, {}, true}},
               500);
 }
 

@@ -15,6 +15,7 @@
 #include "results/conformance.hpp"
 #include "results/schema.hpp"
 #include "results/stability.hpp"
+#include "support/files.hpp"
 #include "tests/fuzz/reading.hpp"
 #include "tests/reports/sample_results.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -24,7 +25,7 @@ namespace {
 using namespace crossgrain;
 namespace fs = std::filesystem;
 
-using test::contentOf, test::write;
+using test::write;
 
 TEST(FuzzedInput, CasesLoadOrAreRefusedInOneLine) {
   const fs::path cases = CROSSGRAIN_CASES;
@@ -40,7 +41,7 @@ TEST(FuzzedInput, CasesLoadOrAreRefusedInOneLine) {
        {"couette/quick.toml", "hard/restart.toml", "hard/wedge.toml", "hard/copies.toml",
         "hard/restitution-of-a-wall.toml", "collision/wall-oblique.toml",
         "assembly/plane-shear.toml", "collision/chung-ooi-5.toml"}) {
-    corpus.push_back(contentOf(cases / name));
+    corpus.push_back(readFile(cases / name).value());
     places.push_back(folder.path() / fs::path(name).parent_path() / "fuzzed.toml");
   }
   test::readAll(10'000, [&](std::uint64_t k, test::Draw& draw) {
@@ -107,7 +108,7 @@ TEST(FuzzedInput, PackingsAreSoundOrRefusedInOneLine) {
   }
   packing.hash = "0123456789abcdef";
   writePacking(packing, file);
-  const std::string whole = contentOf(file);
+  const std::string whole = readFile(file).value();
   const std::size_t before = test::mostMemory();
   readDamaged(
       file, 1'000, [&](test::Draw& draw) { return test::damagedBytes(whole, draw); },

@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 
 #include "support/bad_input.hpp"
@@ -13,13 +12,6 @@
 #include "tests/support/input_range.hpp"
 
 namespace crossgrain::test {
-
-inline std::string contentOf(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream content;
-  content << in.rdbuf();
-  return content.str();
-}
 
 /// Anew: some file systems wait for the disk where a file that is there is cut to nothing.
 inline void write(const std::filesystem::path& file, const std::string& content) {

@@ -2,11 +2,9 @@
 /// of it is run, nothing gets out of its quotes, and no file is written but the report's.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <string>
 #include <vector>

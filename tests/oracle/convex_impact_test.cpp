@@ -174,10 +174,7 @@ TEST(ConvexImpact, BadInput_Throws) {
 
 /// Arms along n: C = 0, and Walton's closed form with a tangential restitution of 0.
 TEST(ConvexImpact, DisksAndSpheres_AsTheRigidLaw) {
-  ContactLaw law;
-  law.normal = NormalLaw::rigid;
-  law.en = 0.7;
-  law.et0 = 0.0;
+  ContactLaw law{.normal = NormalLaw::rigid, .en = 0.7, .et0 = 0.0};
   CollidingPair pair{{0.5, 0.8}, {1.0, 3.0}, {}};
   for (const int side : {0, 1})
     pair.inertia[side] = 0.4 * pair.mass[side] * pair.radius[side] * pair.radius[side];
@@ -185,10 +182,7 @@ TEST(ConvexImpact, DisksAndSpheres_AsTheRigidLaw) {
     law.mu = mu;
     CollisionStart start{1.3, 2.0, Approach::oblique};
     const PairMotion before = motionBefore(pair, start);
-    ConvexImpactStart<2> plane;
-    plane.normal = Vec2::UnitX();
-    plane.restitution = law.en;
-    plane.mu = mu;
+    ConvexImpactStart<2> plane{.normal = Vec2::UnitX(), .restitution = law.en, .mu = mu};
     for (const int side : {0, 1})
       plane.body[side] = {pair.mass[side], 1.0 / pair.inertia[side],
                           Vec2(side == 0 ? -pair.radius[0] : pair.radius[1], 0.0)};
@@ -204,10 +198,7 @@ TEST(ConvexImpact, DisksAndSpheres_AsTheRigidLaw) {
     start.spinOutOfPlane[0] = {0.7, -2.0};
     start.spinOutOfPlane[1] = {0.1, 0.4};
     const SpaceMotion motion = spaceMotionBefore(pair, start);
-    ConvexImpactStart<3> space;
-    space.normal = Vec3::UnitX();
-    space.restitution = law.en;
-    space.mu = mu;
+    ConvexImpactStart<3> space{.normal = Vec3::UnitX(), .restitution = law.en, .mu = mu};
     for (const int side : {0, 1}) {
       space.body[side].mass = pair.mass[side];
       space.body[side].inverseInertia = Eigen::Matrix3d::Identity() / pair.inertia[side];

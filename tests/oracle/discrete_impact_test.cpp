@@ -14,9 +14,7 @@ using namespace crossgrain;
 
 /// k_n = 1 N/m, m₁₂ = 1 kg: at dt = 1 s Störmer's recursion is x_{k+1} = x_k − x_{k−1} in contact.
 ContactLaw unitLaw(Integrator integrator = Integrator::positionVerlet) {
-  ContactLaw law;
-  law.tangential = TangentialLaw::none;
-  law.kn = 1.0;
+  ContactLaw law{.tangential = TangentialLaw::none, .kn = 1.0};
   law.conventions.integrator = integrator;
   return law;
 }

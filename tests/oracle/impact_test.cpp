@@ -10,11 +10,7 @@ using namespace crossgrain;
 constexpr Impact impact{2.0, 1.0, 3.0};  // ½ · 2 kg · (3 m/s)², R₁₂ = 1 m
 
 ContactLaw lawOf(NormalLaw normal, double kn) {
-  ContactLaw law;
-  law.normal = normal;
-  law.kn = kn;
-  law.kn3 = 0.0;
-  return law;
+  return ContactLaw{.normal = normal, .kn = kn, .kn3 = 0.0};
 }
 
 TEST(Impact, IsDeepestWhereTheSpringHoldsAllOfIt) {

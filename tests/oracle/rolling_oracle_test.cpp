@@ -19,11 +19,7 @@ CollidingPair disk() {
   return diskOnWall(5e-3, 1e-3, 0.5 * 1e-3 * 25e-6);
 }
 ContactLaw rolling(RollingLaw kind) {
-  ContactLaw law;
-  law.kn = 1e4;
-  law.tangential = TangentialLaw::none;
-  law.rolling = kind;
-  return law;
+  return ContactLaw{.tangential = TangentialLaw::none, .kn = 1e4, .rolling = kind};
 }
 const double speed = 0.1, contact = M_PI / std::sqrt(1e4 / 1e-3), impulse = 2.0 * 1e-3 * speed;
 

@@ -10,7 +10,6 @@
 #include "reports/stability/report.hpp"
 #include "support/files.hpp"
 #include "tests/reports/report_text.hpp"
-#include "tests/reports/sample_results.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
@@ -18,9 +17,7 @@ namespace {
 
 /// The y axis that a figure's script asks for: "LOW:HIGH".
 std::string yRangeOf(const Panel& panel) {
-  Figure figure;
-  figure.name = "one";
-  figure.panels = {panel};
+  Figure figure{.name = "one", .panels = {panel}};
   const TemporaryFolder folder;
   writeFigure(figure, folder.path());
   const std::string script = readFile(folder.path() / "one.gp").value();
@@ -30,9 +27,7 @@ std::string yRangeOf(const Panel& panel) {
 }
 
 Panel panelWith(std::vector<double> values, double level, bool logarithmic) {
-  Panel panel;
-  panel.logY = logarithmic;
-  panel.level = level;
+  Panel panel{.logY = logarithmic, .level = level};
   Curve curve;
   for (const double value : values) curve.points.push_back({1.0, value, {}});
   panel.curves = {curve};
@@ -70,9 +65,7 @@ CollideResults energies() {
   CollisionTable table = half();
   table.columns[lostNormalDamping] = NumberList{0.4, 0.5};
   table.columns[lostTangential] = NumberList{0.1, 0.5};
-  CollisionCurve& curve = hertz.curves.emplace_back();
-  curve.engine = "e";
-  curve.dt = 1e-5;
+  CollisionCurve& curve = hertz.curves.emplace_back(CollisionCurve{.engine = "e", .dt = 1e-5});
   static_cast<CollisionTable&>(curve.points) = table;
   table.columns[psiF] = NumberList{0.0, 1.0};
   table.columns[lostTangentialDamping] = NumberList{0.05, 0.1};

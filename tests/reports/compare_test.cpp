@@ -15,6 +15,7 @@
 #include "results/schema.hpp"
 #include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -128,12 +129,9 @@ TEST(CompareCauses, SizeFirst_NamesWhatIsSeen) {
             "implementation 5.0, rest 3.0 (1 margin = 10.0 %).");
   EXPECT_EQ(rowNamed(overview, "theirs").cells[1].words, "pressure, most by spring_update");
   const std::string csv = causesCsv(results);
-  EXPECT_NE(csv.find("ours,theirs,pressure,N/m²,8,tension,allow,cut,yes,3,-1,7,no,\n"),
-            std::string::npos)
-      << csv;
+  test::expectSays(csv, {"ours,theirs,pressure,N/m²,8,tension,allow,cut,yes,3,-1,7,no,\n"});
   results.causes[0].differences[1].declared = false;
-  EXPECT_NE(compareOverview(results).conclusion[1].find("spring_update 22.0 (not declared), "),
-            std::string::npos);
+  test::expectSays(compareOverview(results).conclusion[1], {"spring_update 22.0 (not declared), "});
 }
 
 TEST(CompareCauses, ProfileThatWasAskedFor_IsDrawnAndListed) {
@@ -147,9 +145,8 @@ TEST(CompareCauses, ProfileThatWasAskedFor_IsDrawnAndListed) {
   pair.profile[1].parts[1] = part(22.0, 30.0);
   results.causes = {pair};
   results.rings.rTilde = {0.5, 1.5};
-  EXPECT_NE(causesCsv(results).find(
-                "ours,theirs,stress_rr,N/m²,8,spring_update,after,before,yes,22,-8,52,no,1\n"),
-            std::string::npos);
+  test::expectSays(causesCsv(results),
+                   {"ours,theirs,stress_rr,N/m²,8,spring_update,after,before,yes,22,-8,52,no,1\n"});
   const std::vector<Figure> figures = profileCausesFigures(results);
   ASSERT_EQ(figures.size(), 1u);
   EXPECT_EQ(figures[0].name, "causes_stress_rr");
@@ -318,10 +315,7 @@ TEST(CompareSentences, SpotCheck_NamesTheFarthestEndpoint) {
 TEST(CompareSentences, LateFault_IsInTheMatrix) {
   std::mt19937 random(3);
   CompareResults results = randomResults(random);
-  LockstepRow row;
-  row.engine = "second";
-  row.verdict = Equivalence::sameLaw;
-  row.equivalent = 1e-10;
+  LockstepRow row{.engine = "second", .verdict = Equivalence::sameLaw, .equivalent = 1e-10};
   results.lockstep.emplace().rows = {row};
   results.lockstep->rules.sameLaw = 1e-3;
   SurrogateEngine& own = results.endpoints.surrogates.front();
@@ -395,15 +389,9 @@ TEST(CompareSentences, RandomResults_DoNotContradictEachOther) {
 TEST(DifferenceFigures, BeyondTheAxis_IsMarkedWithItsNumber) {
   CompareResults results = disagreeing();
   results.rings.rTilde = {0.5, 1.5, 2.5};
-  AgreementRow row;
-  row.a = "ours";
-  row.b = "theirs";
-  row.field = "spin";
+  AgreementRow row{.a = "ours", .b = "theirs", .field = "spin"};
   for (const double margins : {0.5, 87.0, -6.0}) {
-    AgreementRing ring;
-    ring.ring = row.rings.size();
-    ring.difference = 2.0 * margins;
-    ring.margin = 2.0;
+    AgreementRing ring{.ring = row.rings.size(), .difference = 2.0 * margins, .margin = 2.0};
     row.rings.push_back(ring);
   }
   results.agreement = {row};
@@ -423,11 +411,7 @@ TEST(DifferenceFigures, Differences_AreInMarginsWithTheirBand) {
   row.a = "theirs";  // the reference is second: the sign is turned
   row.b = "ours";
   row.field = "stress_rr";
-  AgreementRing ring;
-  ring.difference = 4.0;
-  ring.low = 3.0;
-  ring.high = 5.0;
-  ring.margin = 2.0;
+  AgreementRing ring{.difference = 4.0, .low = 3.0, .high = 5.0, .margin = 2.0};
   row.rings = {ring};
   ring.ring = 1;
   ring.margin.reset();
@@ -456,16 +440,11 @@ TEST(ProfileFigures, SingleRunBesideMeans_IsDrawnByItselfAndItsMirrorIsNamed) {
   profile.standardError = {0.1, 0.1};
   for (const auto& [name, runs] : {std::pair("ours", 2), std::pair("theirs", 1), {"mirror", 2}}) {
     for (int k = 0; k < runs; ++k) {
-      FlowRun run;
-      run.engine = name;
-      run.packing = k;
-      run.profiles = {profile};
+      FlowRun run{.engine = name, .packing = k, .profiles = {profile}};
       results.runs.push_back(run);
     }
     if (runs > 1) {
-      CouetteEnsemble mean;
-      mean.engine = name;
-      mean.profiles = {profile};
+      CouetteEnsemble mean{.engine = name, .profiles = {profile}};
       results.ensemble.push_back(mean);
     }
   }

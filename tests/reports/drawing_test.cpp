@@ -9,6 +9,7 @@
 #include "reports/render/gnuplot.hpp"
 #include "support/files.hpp"
 #include "tests/reports/sample_results.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
@@ -129,34 +130,27 @@ TEST(Scripts, NameOfACurve_RunsNothing) {
 TEST(Gnuplot, Failure_IsOneLineWithItsLastWord) {
   const TemporaryFolder folder;
   writeFile(folder.path() / "bad.gp", "plot 'there_is_no_such_file.dat'\n");
-  try {
-    runGnuplot({"bad.gp"}, folder.path());
-    FAIL() << "no error";
-  } catch (const GnuplotError& error) {
-    const std::string message = error.what();
-    EXPECT_EQ(message.find('\n'), std::string::npos);
-    EXPECT_TRUE(message.starts_with("gnuplot failed in " + folder.path().string())) << message;
-    EXPECT_NE(message.find("\"bad.gp\" line 1: No data in plot"), std::string::npos) << message;
-  }
+  const std::string message =
+      test::refusalOf<GnuplotError>([&] { runGnuplot({"bad.gp"}, folder.path()); });
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+  EXPECT_TRUE(message.starts_with("gnuplot failed in " + folder.path().string())) << message;
+  test::expectSays(message, {"\"bad.gp\" line 1: No data in plot"});
 }
 
 /// A window of ±1 on 100 px: (0.5, 0.5) lies at x = 75, and 25 from the top.
 TEST(Strokes, Svg_PutsYUpward) {
   const Drawing drawing{{-1, 1, -1, 1}, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}, {-1, -1, 1, 1}}}}};
   const std::string svg = toSvg(drawing, 100, "a < b");
-  EXPECT_NE(svg.find("<path stroke=\"#ff0000\" stroke-width=\"10\" d=\"M75 25h0M0 100L100 0\"/>"),
-            std::string::npos)
-      << svg;
-  EXPECT_NE(svg.find("<title>a &lt; b</title>"), std::string::npos);
+  test::expectSays(svg,
+                   {"<path stroke=\"#ff0000\" stroke-width=\"10\" d=\"M75 25h0M0 100L100 0\"/>",
+                    "<title>a &lt; b</title>"});
 }
 
 /// The same window on 75 points (100 px at 96 per inch), y upward as PDF has it.
 TEST(Strokes, Pdf_HasTheSameStrokesAndAValidTable) {
   const Drawing drawing{{-1, 1, -1, 1}, {{"#ff0000", 0.2, {{0.5, 0.5, 0.5, 0.5}}}}};
   const std::string pdf = toPdf(drawing, 100);
-  EXPECT_NE(pdf.find("1.000 0.000 0.000 RG 7.5 w\n56.25 56.25 m 56.25 56.25 l\nS\n"),
-            std::string::npos)
-      << pdf;
+  test::expectSays(pdf, {"1.000 0.000 0.000 RG 7.5 w\n56.25 56.25 m 56.25 56.25 l\nS\n"});
   const std::size_t table = pdf.find("xref\n0 5\n");
   ASSERT_NE(table, std::string::npos);
   EXPECT_NE(pdf.find("startxref\n" + std::to_string(table) + "\n%%EOF"), std::string::npos);

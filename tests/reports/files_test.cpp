@@ -6,29 +6,18 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 
 #include "reports/report.hpp"
 #include "results/schema.hpp"
 #include "support/bad_input.hpp"
 #include "tests/reports/sample_results.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain::reports {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Message of the error that the call throws, or nothing.
-template <class Error, class Call>
-std::string messageOf(Call call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return {};
-}
 
 std::size_t entries(const fs::path& dir) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(dir), {}));
@@ -45,7 +34,7 @@ TEST(WriteFile, OldFile_IsReplacedAndNothingLeftBeside) {
 TEST(WriteFile, MissingFolder_NamesTheFileAndTheReason) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / "missing" / "a.txt";
-  EXPECT_EQ(messageOf<std::runtime_error>([&] { writeFile(file, "x"); }),
+  EXPECT_EQ(test::refusalOf<std::runtime_error>([&] { writeFile(file, "x"); }),
             file.string() + ": cannot be written: No such file or directory");
 }
 
@@ -56,7 +45,7 @@ TEST(WriteFile, MissingFolder_NamesTheFileAndTheReason) {
   const rlimit limit{1000, 1000};
   ::setrlimit(RLIMIT_FSIZE, &limit);
   const std::string message =
-      messageOf<std::runtime_error>([&] { writeFile(file, std::string(5000, 'x')); });
+      test::refusalOf<std::runtime_error>([&] { writeFile(file, std::string(5000, 'x')); });
   const bool intact = readFile(file) == "old" && entries(file.parent_path()) == 1;
   std::fprintf(stderr, "%s%s\n", message.c_str(), intact ? " (old file intact)" : "");
   std::_Exit(7);  // exit() would take the folder of the whole test program along
@@ -74,8 +63,9 @@ TEST(WriteReport, FolderThatCannotBeMade_IsOneLine) {
   const TemporaryFolder folder;
   writeFile(folder.path() / "file", "");
   const fs::path dir = folder.path() / "file" / "out";
-  EXPECT_EQ(messageOf<std::runtime_error>([&] { writeReport(sample::collideResults(), dir); }),
-            dir.string() + ": cannot be written: Not a directory");
+  EXPECT_EQ(
+      test::refusalOf<std::runtime_error>([&] { writeReport(sample::collideResults(), dir); }),
+      dir.string() + ": cannot be written: Not a directory");
 }
 
 TEST(Results, WrittenAndRead_AreTheSame) {
@@ -95,7 +85,7 @@ TEST(Results, FolderWithoutThem_SaysWhatIsWrong) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "results.json").string();
   const auto message = [&] {
-    return messageOf<BadInput>([&] { static_cast<void>(readResults(folder.path())); });
+    return test::refusalOf<BadInput>([&] { static_cast<void>(readResults(folder.path())); });
   };
   EXPECT_EQ(message(),
             file +

@@ -10,6 +10,7 @@
 #include "support/files.hpp"
 #include "tests/reports/report_text.hpp"
 #include "tests/reports/sample_results.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain {
@@ -118,13 +119,8 @@ TEST(Report, ResultsWithAlmostNothing_AreWritten) {
 
 TEST(Report, WrongMember_IsNamedByItsPath) {
   const TemporaryFolder folder;
-  const auto complaint = [&](const json& broken) -> std::string {
-    try {
-      writeReport(broken, folder.path());
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return {};
+  const auto complaint = [&](const json& broken) {
+    return test::refusalOf([&] { writeReport(broken, folder.path()); });
   };
   const std::string file = (folder.path() / "results.json").string();
   const json whole = toJson(sample::compareResults(2, 10));
@@ -152,12 +148,8 @@ class PathIs {
 TEST(Report, WithoutGnuplot_EverythingElseIsThere) {
   const TemporaryFolder folder;
   const PathIs nowhere("/nonexistent");
-  std::string message;
-  try {
-    writeReport(sample::compareResults(1, 50), folder.path());
-  } catch (const std::runtime_error& error) {
-    message = error.what();
-  }
+  const std::string message = test::refusalOf<std::runtime_error>(
+      [&] { writeReport(sample::compareResults(1, 50), folder.path()); });
   EXPECT_TRUE(message.starts_with("gnuplot cannot be started (No such file or directory)"));
   EXPECT_EQ(message.find('\n'), std::string::npos);
   const std::string page = readFile(folder.path() / "report.html").value();

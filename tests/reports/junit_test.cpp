@@ -6,7 +6,6 @@
 #include "reports/common/overview.hpp"
 #include "reports/stability/report.hpp"
 #include "tests/reports/report_text.hpp"
-#include "tests/reports/sample_results.hpp"
 
 namespace crossgrain::reports {
 namespace {
@@ -82,10 +81,7 @@ StabilityResults hardResults(Status status, Verdict verdict, const std::string& 
   pile.name = "pile";
   pile.variant = "slow";
   pile.why = "a pile rests";
-  StabilityResults results;
-  results.cases = {pile};
-  results.runs = {run};
-  return results;
+  return StabilityResults{.cases = {pile}, .runs = {run}};
 }
 
 TEST(StabilityJunit, Failure_HasFigureLimitAndReason) {
@@ -115,9 +111,7 @@ TEST(StabilityJunit, BrokenDownIsAnError_RefusedIsSkipped) {
 }
 
 CollideResults sweeps(std::vector<CollisionCurve> curves) {
-  CollisionVariant variant;
-  variant.name = "pair";
-  variant.variant = "cut";
+  CollisionVariant variant{.name = "pair", .variant = "cut"};
   variant.curves = std::move(curves);
   CollideResults results;
   results.variants = {std::move(variant)};
@@ -125,11 +119,7 @@ CollideResults sweeps(std::vector<CollisionCurve> curves) {
 }
 
 CollisionCurve curve(Status status, const std::optional<QuantityScore>& psi) {
-  CollisionCurve curve;
-  curve.engine = "grain";
-  curve.dt = 2e-5;
-  curve.status = status;
-  curve.reason = "because";
+  CollisionCurve curve{.engine = "grain", .dt = 2e-5, .status = status, .reason = "because"};
   curve.score.verdict = Verdict::pass;
   curve.score.of[QuantityId::psiF] = psi;
   curve.stats.emplace().wallSeconds = 0.25;
@@ -137,10 +127,7 @@ CollisionCurve curve(Status status, const std::optional<QuantityScore>& psi) {
 }
 
 QuantityScore scoreOf(double max, const char* why = nullptr) {
-  QuantityScore score;
-  score.max = max;
-  score.limit = 0.1;
-  score.held = max <= 0.1;
+  QuantityScore score{.max = max, .limit = 0.1, .held = max <= 0.1};
   if (why) score.why = why;
   return score;
 }

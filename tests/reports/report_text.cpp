@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "reports/common/overview.hpp"
-#include "results/schema.hpp"
 
 namespace crossgrain::reports {
 

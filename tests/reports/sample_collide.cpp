@@ -28,10 +28,7 @@ void add(CollisionTable& table, QuantityId quantity, double value) {
 
 CollisionCurve curve(const std::string& name, double steps, double stick, double constant,
                      double error) {
-  CollisionCurve curve;
-  curve.engine = name;
-  curve.dt = 2.18e-3 / steps;
-  curve.stepsPerContact = steps;
+  CollisionCurve curve{.engine = name, .dt = 2.18e-3 / steps, .stepsPerContact = steps};
   curve.effective = readAs<EffectiveParameters>(effective(name, curve.dt));
   for (int k = 0; k < places; ++k) {
     const double psi = psiAt(k);
@@ -86,9 +83,7 @@ ConvergenceOrder order(const std::string& engine, FittedOrder fit,
 }  // namespace
 
 CollideResults collideResults() {
-  CollideResults results;
-  results.head = resultsHead("collide", "figure-4-3");
-  results.elapsed = 754.2;
+  CollideResults results{.head = resultsHead("collide", "figure-4-3"), .elapsed = 754.2};
   results.engines = {engineRow("grain", "the in-house engine"),
                      engineRow("yade", "YADE's viscoelastic law"),
                      engineRow("box2d-impulse", "Box2D's own solver"),

@@ -157,9 +157,7 @@ CostResults costResults() {
       time.precision = "double";
       time.dt = 4e-5;
     }
-  StepTime& refused = results.steps.emplace_back();
-  refused.engine = "yade";
-  refused.bodies = 984;
+  StepTime& refused = results.steps.emplace_back(StepTime{.engine = "yade", .bodies = 984});
   refused.status = Status::refused;
   refused.reason = awkward;
   results.startup = {{"grain", 0.004, 0.001}, {"yade", 1.4, 0.3}};

@@ -89,10 +89,7 @@ TEST(ResultsDocument, MemberOfAnotherType_ThrowsWithItsPath) {
 }
 
 TEST(FlowRunDocument, NotFinished_HoldsItsReasonAlone) {
-  FlowRun run;
-  run.engine = "one";
-  run.status = Status::failed;
-  run.reason = "died";
+  FlowRun run{.engine = "one", .status = Status::failed, .reason = "died"};
   run.profiles.resize(1);
   EXPECT_EQ(toJson(run),
             Json({{"engine", "one"}, {"packing", 0}, {"status", "failed"}, {"reason", "died"}}));

@@ -9,11 +9,7 @@ namespace {
 /// @param step  the mean of its rounds [s]
 StepTime timed(const char* engine, std::size_t bodies, int workers, double step,
                std::vector<double> seconds) {
-  StepTime time;
-  time.engine = engine;
-  time.bodies = bodies;
-  time.workers = workers;
-  time.step = step;
+  StepTime time{.engine = engine, .bodies = bodies, .workers = workers, .step = step};
   time.seconds = std::move(seconds);
   return time;
 }

@@ -368,9 +368,7 @@ TEST(StabilityMeasures, RestitutionIsThatOfTheWorstOfSeveral) {
 TEST(StabilityMeasures, OneDiskGoesThroughAWallDisk) {
   Series at;
   at.run.scene.disks.radius.pop_back();
-  WallBody wall;
-  wall.diskPosition = {{5.0, 0.0}};
-  wall.diskRadius = {1.0};
+  WallBody wall{.diskPosition = {{5.0, 0.0}}, .diskRadius = {1.0}};
   at.run.scene.bodies.push_back(wall);
   for (Snapshot& now : at.run.snapshots) now.position.pop_back();
   at.look(1.0, {4.5, 0.0}, {}).position.pop_back();
@@ -503,8 +501,7 @@ TEST(SpaceMeasures, EnergyAndMomenta_AreThoseOfVectors) {
 
 TEST(SpaceMeasures, Cylinder_IsAWallFromInside) {
   SpaceRecording run = spheres(1);
-  WallBodyOf<3>& body = run.scene.bodies.emplace_back();
-  body.cylinders = {{{0, 5, 0}, {1, 0, 0}, 3.0}};
+  run.scene.bodies.push_back({.cylinders = {{{0, 5, 0}, {1, 0, 0}, 3.0}}});
   look(run, 0.0, {{7, 5, 0}}, {{0, 0, 0}});
   look(run, 1.0, {{7, 5, 2.25}}, {{0, 0, 0}});  // R − s = 0.75
   look(run, 2.0, {{7, 1.5, 0}}, {{0, 0, 0}});   // outside

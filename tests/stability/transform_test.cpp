@@ -19,9 +19,7 @@ Scene small() {
   scene.disks.position = {{1.0, 2.0}, {-3.0, 4.0}};
   scene.disks.velocity = {{3.0, 4.0}, {0.0, 2.0}};
   scene.disks.spin = {5.0, -4.0};
-  WallBody paddle;
-  paddle.centre = {7.0, 0.0};
-  paddle.planes = {{{7.0, 1.0}, {1.0, 0.0}}};
+  WallBody paddle{.centre = {7.0, 0.0}, .planes = {{{7.0, 1.0}, {1.0, 0.0}}}};
   paddle.motion.velocity = {0.0, 2.0};
   paddle.motion.angularVelocity = 3.0;
   scene.bodies.push_back(paddle);
@@ -124,9 +122,7 @@ TEST(Transform, InOtherUnitsALawIsAsStiff) {
 
 TEST(Transform, InOtherUnitsRollingAndCohesionAreAsStrong) {
   const Units units{.length = 2.0, .mass = 3.0, .time = 4.0};
-  ContactLaw law;
-  law.rolling = RollingLaw::spring;
-  law.cohesion = CohesionLaw::area;
+  ContactLaw law{.rolling = RollingLaw::spring, .cohesion = CohesionLaw::area};
   law.kr = law.kc = law.w = law.kUnload = 16.0;
   law.gr = 8.0;
   law.muR = 0.5;

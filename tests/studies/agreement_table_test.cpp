@@ -54,10 +54,7 @@ TEST(Ensemble, Angles_HaveTheirMeanAcrossTheTurn) {
   std::vector<FlowRun> runs;
   for (const double angle : {3.0, -3.0}) {
     runs.push_back(test::flowRun("a", static_cast<int>(runs.size()), {test::sliced("f", {1.0})}));
-    FitRow& fit = runs.back().fits.emplace_back();
-    fit.name = "angle";
-    fit.value = angle;
-    fit.period = 2.0 * std::numbers::pi;
+    runs.back().fits.push_back({.name = "angle", .value = angle, .period = 2.0 * std::numbers::pi});
   }
   EXPECT_NEAR(*ensembleOf(runs, {"a"}).at(0).fits[0].value, std::numbers::pi, 1e-12);
 }

@@ -9,6 +9,7 @@
 #include "cases/loader.hpp"
 #include "cases/time_step.hpp"
 #include "studies/collide/sweep.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace {
 
@@ -108,14 +109,8 @@ class ImpactEngine : public Engine {
   EffectiveParameters load(const Scene& scene, const Settings&) override {
     scene_ = scene;
     steps_ = 0;
-    EffectiveParameters effective;
-    effective.engine = "impacts";
-    effective.dt = scene.dt;
-    effective.precision = "double";
-    PairCoefficients& pair = effective.pairs.emplace_back();
-    pair.pair = "all";
-    pair.mu = scene.law.mu;
-    pair.en = scene.law.en;
+    EffectiveParameters effective{.engine = "impacts", .dt = scene.dt, .precision = "double"};
+    effective.pairs.push_back({.pair = "all", .mu = scene.law.mu, .en = scene.law.en});
     return effective;
   }
   double advance(double t) override {
@@ -237,13 +232,9 @@ TEST(ConvexCollisions, HypothesesDiffer_OnlyAGainOfEnergyIsJudged) {
 
 TEST(ConvexCollisions, Capsule_OnAnEngineWithoutIt_IsRefusedInOneLine) {
   ImpactEngine engine(newtons);
-  try {
-    sweptBy(variantOf("convex-box", "capsule"), engine);
-    FAIL();
-  } catch (const UnsupportedScene& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("has no capsule"), std::string::npos)
-        << refusal.what();
-  }
+  test::expectSays(test::refusalOf<UnsupportedScene>(
+                       [&] { sweptBy(variantOf("convex-box", "capsule"), engine); }),
+                   {"has no capsule"});
 }
 
 }  // namespace

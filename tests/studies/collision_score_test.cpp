@@ -109,9 +109,7 @@ TEST(Score, WhatIsBeyondALimitByNoMoreThanRounding_IsNotJudged) {
 }
 
 CollisionCurve curve(double dt, double psi, double en) {
-  CollisionCurve curve;
-  curve.engine = "a";
-  curve.dt = dt;
+  CollisionCurve curve{.engine = "a", .dt = dt};
   curve.score.of[QuantityId::psiF].emplace().rms = psi;
   curve.score.of[QuantityId::en].emplace().rms = en;
   return curve;

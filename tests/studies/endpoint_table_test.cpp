@@ -43,10 +43,7 @@ FlowRun runOf(const std::string& engine, int packing, double pressure, double sp
 /// Nor a sum over contacts that the files do not list: 0 N would be a value.
 TEST(EndpointTable, ForceOnAWallOfFilesWithoutItsContacts_IsAbsent) {
   Case setup;
-  Endpoint own;
-  own.name = "load";
-  own.quantity = std::string(normalForce);
-  own.wall = 0;
+  Endpoint own{.name = "load", .quantity = std::string(normalForce), .wall = 0};
   setup.region.emplace();
   setup.endpoints = {own};
   FlowRun run;

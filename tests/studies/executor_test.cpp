@@ -96,9 +96,7 @@ std::vector<CachedTask<Values>> fourRuns(int& done) {
 
 TEST(RunOrLoad, FinishedTasks_AreLoadedAndFailedOnesRunAgain) {
   const ScratchFolder folder;
-  RunCommand command;
-  command.out = folder.path / "out";
-  command.quiet = true;
+  RunCommand command{.out = folder.path / "out", .quiet = true};
   RunStore store(command, "study", {});
   store.begin();
   Progress progress(true);
@@ -122,9 +120,7 @@ TEST(RunOrLoad, FinishedTasks_AreLoadedAndFailedOnesRunAgain) {
 TEST(RunOrLoad, Shards_DoEachRunOnceAndHaveThemAll) {
   const ScratchFolder folder;
   const auto command = [&](int number) {
-    RunCommand one;
-    one.out = folder.path / "out";
-    one.quiet = true;
+    RunCommand one{.out = folder.path / "out", .quiet = true};
     if (number > 0) one.shard = Shard{number, 2};
     return one;
   };
@@ -170,10 +166,7 @@ TEST(RunOrLoad, Shards_DoEachRunOnceAndHaveThemAll) {
 
 TEST(RunOrLoad, RunOfAShardThatDied_IsDone) {
   const ScratchFolder folder;
-  RunCommand command;
-  command.out = folder.path / "out";
-  command.quiet = true;
-  command.shard = Shard{1, 2};
+  RunCommand command{.out = folder.path / "out", .quiet = true, .shard = Shard{1, 2}};
   RunStore store(command, "study", {});
   store.begin();
   auto claim = store.claim("b0");

@@ -1,5 +1,4 @@
 // Causes of differences between engines in which one thing is planted.
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

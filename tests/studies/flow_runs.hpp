@@ -15,10 +15,7 @@ inline Profile sliced(const std::string& field, const Numbers& mean, const Numbe
 
 inline FlowRun flowRun(const std::string& engine, int packing,
                        const std::vector<Profile>& profiles = {}) {
-  FlowRun run;
-  run.engine = engine;
-  run.packing = packing;
-  run.profiles = profiles;
+  FlowRun run{.engine = engine, .packing = packing, .profiles = profiles};
   run.stats.emplace();
   return run;
 }

@@ -65,9 +65,7 @@ TEST(EquivalentChange, NothingMoves_IsUnknown) {
 /// disks that touch nothing else.
 LockstepRow judged(std::size_t read, std::size_t beyond, std::size_t unread = 0,
                    std::size_t alone = 0) {
-  LockstepRow row;
-  row.starts = read + unread;
-  row.track = {1e-6};
+  LockstepRow row{.starts = read + unread, .track = {1e-6}};
   row.kinds.sticking = 1;
   for (std::size_t k = 0; k < read; ++k)
     row.readings.push_back({k < beyond ? 0.01 : 1e-5, 0.01, k < beyond});

@@ -110,9 +110,7 @@ TEST_F(Misbehaviour, EnginesOfACampaign_FailAlone) {
       crossgrain::test::misbehavingEntry("none", 0).command;  // no program "__serve" here
   for (const std::string& mischief : crossgrain::test::fatalMischiefs())
     engines.push_back(crossgrain::test::misbehavingEntry(mischief, 60));
-  RunCommand command;
-  command.out = folder_.path();
-  command.quiet = true;
+  RunCommand command{.out = folder_.path(), .quiet = true};
   RunStore store(command, "compare", soleCase(setup));
   Campaign campaign(setup, command, engines, store);
   campaign.askEngines();

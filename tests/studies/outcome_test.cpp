@@ -21,11 +21,7 @@ Case judging() {
 }
 
 EndpointRow row(PairKind kind, int packings, Verdict answer = Verdict::undecided) {
-  EndpointRow result;
-  result.kind = kind;
-  result.verdict = answer;
-  result.packings = packings;
-  return result;
+  return EndpointRow{.kind = kind, .verdict = answer, .packings = packings};
 }
 
 using Rows = std::vector<EndpointRow>;
@@ -102,9 +98,7 @@ TEST(CompareOutcome, LockstepAlarmsRefusalsAndFailures_Decide) {
   EXPECT_EQ(compared(results), exitPassed);
   results.endpoints.alarms.front().kind = PairKind::peer;
   EXPECT_EQ(compared(results), exitFailed);
-  FlowRun run;
-  run.status = Status::failed;
-  run.reason = "broke";
+  FlowRun run{.status = Status::failed, .reason = "broke"};
   results.runs = {run};
   EXPECT_EQ(compared(results), exitEngineFailed);
   CommandLine line;
@@ -151,9 +145,7 @@ TEST(CompareOutcome, StatusOne_SaysWhichRuleMadeIt) {
   results.endpoints.rows.erase(results.endpoints.rows.begin(), results.endpoints.rows.end() - 1);
   EXPECT_EQ(why(false), Lines{});
   results.endpoints.alarms = {{"a", "b", PairKind::peer, "pressure is 12 margins away"}};
-  LockstepRow law;
-  law.engine = "b";
-  law.verdict = Equivalence::differs;
+  LockstepRow law{.engine = "b", .verdict = Equivalence::differs};
   results.lockstep.emplace().rows = {law};
   EXPECT_EQ(why(false), (Lines{"an alarm: engines differ in what no margin excuses (a and b)",
                                "an engine differs from the law that it declares (b)"}));
@@ -183,9 +175,7 @@ TEST(StabilityOutcome, UnstableOrNothingJudged_Fails) {
 }
 
 CollisionCurve curve(const std::string& engine, Verdict verdict, Status status = Status::finished) {
-  CollisionCurve one;
-  one.engine = engine;
-  one.status = status;
+  CollisionCurve one{.engine = engine, .status = status};
   one.score.verdict = verdict;
   one.reason = engine + " broke";
   return one;
@@ -215,9 +205,7 @@ TEST(CollideOutcome, FailedAndFellShortSweeps_Decide) {
 TEST(LockstepOutcome, DiffersFailureAndNoMirror_Decide) {
   const auto status = [](Equivalence verdict, const char* failure = "", bool strict = false) {
     LockstepResults results;
-    LockstepRow& found = results.lockstep.rows.emplace_back();
-    found.verdict = verdict;
-    found.failure = failure;
+    results.lockstep.rows.push_back({.verdict = verdict, .failure = failure});
     LockstepOptions own;
     own.strict = strict;
     return lockstepStudy.outcome(results, {}, own).status;
@@ -294,10 +282,7 @@ TEST(EffectsAndConformanceOutcome, Failures_AreEngineFailures) {
 TEST(DiffOutcome, DifferencesFailuresAndNothingMeasured_Decide) {
   const auto status = [](Equivalence verdict, const char* failure = "") {
     DiffResults results;
-    DiffRow& found = results.rows.emplace_back();
-    found.verdict = verdict;
-    found.failure = failure;
-    found.reason = "why";
+    results.rows.push_back({.verdict = verdict, .reason = "why", .failure = failure});
     return outcomeOf(results).status;
   };
   EXPECT_EQ(status(Equivalence::sameBits), exitPassed);

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "adapters/box2d_common.hpp"
 #include "law/law_options.hpp"

@@ -21,10 +21,7 @@ Case threeDisks() {
   setup.source = Assembly();
   setup.law.normal = NormalLaw::linear;
   setup.law.kn = 100.0;
-  DiskGroup group;
-  group.radius = 1.0;
-  group.mass = 2.0;
-  group.position = {0.0, 2.0};
+  DiskGroup group{.position = {0.0, 2.0}, .radius = 1.0, .mass = 2.0};
   group.places = {{0.0, 0.0}, {0.95, 0.0}, {1.5, -0.5}};  // in diameters
   assemblyIn<2>(setup).disks = {group};
   WallGroup floor;
@@ -220,9 +217,7 @@ TEST(OwnEndpoints, BinEmptyOrAlmost_GivesTheSameValue) {
   setup.region->count = 4;
   for (const char* field : {"coordination", "stress_yy", "spin"})
     for (const Reduction reduction : {Reduction::mean, Reduction::slope}) {
-      Endpoint endpoint;
-      endpoint.quantity = field;
-      endpoint.reduction = reduction;
+      Endpoint endpoint{.quantity = field, .reduction = reduction};
       const auto valueWith = [&](double held) {
         return endpointValue(endpoint, setup, withThirdSlab(held)).value.value();
       };
@@ -237,9 +232,7 @@ TEST(OwnEndpoints, BinEmptyOrAlmost_GivesTheSameValue) {
 TEST(OwnEndpoints, SeriesWithGaps_IsAbsentWithItsReason) {
   Case setup = threeDisks();
   const auto found = [&](const char* quantity, std::size_t there, Reduction reduction) {
-    Endpoint endpoint;
-    endpoint.quantity = quantity;
-    endpoint.reduction = reduction;
+    Endpoint endpoint{.quantity = quantity, .reduction = reduction};
     FlowRun run;
     Numbers times, values, disks;
     for (std::size_t k = 0; k < 100; ++k) {
@@ -284,9 +277,7 @@ FlowRun thrown() {
 
 TEST(OwnEndpoints, WhatJumpsHasNoParabola) {
   const Case setup = threeDisks();
-  Endpoint endpoint;
-  endpoint.disk = 2;
-  endpoint.quantity = "spin";
+  Endpoint endpoint{.quantity = "spin", .disk = 2};
   const auto value = [&](Reduction reduction, const std::vector<double>& spins) {
     FlowRun run;
     Numbers times;
@@ -315,9 +306,7 @@ TEST(OwnEndpoints, WhatJumpsHasNoParabola) {
 
 TEST(OwnEndpoints, OneDisk_HasApexesTimesAndEvents) {
   const Case setup = threeDisks();
-  Endpoint endpoint;
-  endpoint.disk = 2;
-  endpoint.quantity = "y";
+  Endpoint endpoint{.quantity = "y", .disk = 2};
   const auto value = [&](Reduction reduction, double level = 0.0) {
     endpoint.reduction = reduction;
     endpoint.level = level;

@@ -438,9 +438,7 @@ TEST(AnswerDifferences, Answer_MissingOrUnusable_IsReported) {
 TEST(Recording, Exchanges_WrittenAndRead_AreTheSame) {
   const ScratchFolder scratch;
   const auto file = scratch.path / "run.rec";
-  Exchange failed;
-  failed.request = {{"request", "advance"}, {"time", 0.1}};
-  failed.failure = "toy: ended";
+  Exchange failed{.request = {{"request", "advance"}, {"time", 0.1}}, .failure = "toy: ended"};
   const std::string whole = headText(recordingFormat, {{"engine", "toy"}}) +
                             textOf(recordOf(snapshotWith(1.0))) + textOf(recordOf(failed));
   writeFile(file, whole);

@@ -52,10 +52,7 @@ Case restingDisks() {
   setup.law.kn = 100.0;
   setup.law.kt = 50.0;
   setup.law.mu = 0.5;
-  DiskGroup group;
-  group.radius = 1.0;
-  group.mass = 2.0;
-  group.position = {0.0, 2.0};
+  DiskGroup group{.position = {0.0, 2.0}, .radius = 1.0, .mass = 2.0};
   group.places = {{0.0, 0.0}, {0.95, 0.0}, {2.0, -0.51}};  // in diameters
   assemblyIn<2>(setup).disks = {group};
   WallGroup floor;
@@ -74,9 +71,7 @@ Case restingDisks() {
 /// The three by ids 12, 5 and 9 out of order, with the contact of 5 and 9 listed from both sides
 /// and that of 12 with wall 0.
 FileFrame threeParticles(double time = 1.0) {
-  FileFrame frame;
-  frame.where = "mine.dump, step 7";
-  frame.time = time;
+  FileFrame frame{.where = "mine.dump, step 7", .time = time};
   frame.particles.id = {12, 5, 9};
   frame.particles.position = {{4.0, 0.98, 0.0}, {0.0, 2.0, 0.0}, {1.9, 2.0, 0.0}};
   frame.particles.radius = {1.0, 1.0, 1.0};
@@ -92,9 +87,7 @@ FileFrame threeParticles(double time = 1.0) {
 }
 
 files::FileSceneOf<2> targetOf(const Case& setup) {
-  files::FileSceneOf<2> target;
-  target.name = "mine";
-  target.where = "[engines.mine]";
+  files::FileSceneOf<2> target{.name = "mine", .where = "[engines.mine]"};
   const bool cell = cellOf(setup);
   target.bodies = cell ? couetteScene(setup, Packing(), 0.0).bodies
                        : assemblyScene(setup, Disks(), 0.0, 0.0).bodies;
@@ -146,9 +139,7 @@ std::string refusalOfFrame(const std::function<void(FileFrame&)>& change) {
   return test::refusalOf([&] { firstOf(change); });
 }
 
-void expectSays(const std::string& said, const std::vector<const char*>& words) {
-  for (const char* const each : words) EXPECT_NE(said.find(each), std::string::npos) << said;
-}
+using test::expectSays;
 
 TEST(PlaneSnapshots, Frame_BecomesDisksByRisingIdAndContactsOnce) {
   std::vector<std::string> remarks;
@@ -171,11 +162,7 @@ TEST(PlaneSnapshots, Frame_BecomesDisksByRisingIdAndContactsOnce) {
 }
 
 TEST(PlaneSnapshots, Units_ScaleLengthTimeAndMass) {
-  files::FileUnits units;
-  units.length = 1e-3;
-  units.time = 1e-3;
-  units.mass = 1e-3;
-  units.start = 500.0;
+  files::FileUnits units{.length = 1e-3, .time = 1e-3, .mass = 1e-3, .start = 500.0};
   const Snapshot now = firstOf(
       [](FileFrame& frame) {  // mm, ms, g: forces in g mm/ms² = N
         frame.time = 1500.0;
@@ -275,7 +262,7 @@ TEST(PlaneSnapshots, FilesWithoutContactsOfWalls_HaveThoseOfPairs) {
 }
 
 TEST(PlaneSnapshots, FaultyContacts_AreRefused) {
-  const std::pair<std::function<void(FileFrame&)>, std::vector<const char*>> faults[] = {
+  const std::pair<std::function<void(FileFrame&)>, std::vector<std::string>> faults[] = {
       {[](FileFrame& f) { f.contacts->force[2] *= 1.01; },
        {"contact 5–9 is listed twice with different forces"}},
       {[](FileFrame& f) {
@@ -355,9 +342,7 @@ std::string refusalOfSliding(double tangential, double spin, std::size_t pairs, 
   setup.law.mu = mu;
   auto& group = assemblyIn<2>(setup).disks[0];
   group.places.clear();
-  FileFrame frame;
-  frame.where = "mine.dump, step 7";
-  frame.time = 1.0;
+  FileFrame frame{.where = "mine.dump, step 7", .time = 1.0};
   auto& contacts = frame.contacts.emplace();
   for (std::size_t k = 0; k < pairs; ++k)
     for (const bool upper : {false, true}) {
@@ -443,7 +428,7 @@ TEST(PlaneSnapshots, ParticlesThatComeAndGo_AreThoseOfTheirTimes) {
 }
 
 TEST(PlaneSnapshots, FaultyParticles_AreRefused) {
-  const std::pair<std::function<void(FileFrame&)>, std::vector<const char*>> faults[] = {
+  const std::pair<std::function<void(FileFrame&)>, std::vector<std::string>> faults[] = {
       {[](FileFrame& f) { f.particles.velocity[2].z() = 1.0; }, {"particle 9 moves along z"}},
       {[](FileFrame& f) { f.particles.spin[0].x() = 1.0; }, {"particle 12 spins"}},
       {[](FileFrame& f) { f.particles.id[2] = 5; }, {"particle 5 is there twice"}},
@@ -776,9 +761,7 @@ TEST(PlaneSnapshots, SixDigits_WidenWhatGeometryMayBeOffBy) {
 /// Of the quick cell with one disk: a wheel that has turned by a third of its spacing.
 TEST(PlaneSnapshots, WallDisksOfACell_AreFoundAtAnyAngle) {
   const Case setup = test::quickCell({"particles.small=1", "particles.large=0"});
-  FileFrame frame;
-  frame.where = "cell.dump, step 0";
-  frame.time = 0.5;
+  FileFrame frame{.where = "cell.dump, step 0", .time = 0.5};
   const double turned = 0.05 + 0.5 * couetteIn(setup).cell.omega;
   std::int64_t id = 100;
   const auto add = [&](const Vec2& x, double a) {
@@ -810,9 +793,7 @@ TEST(PlaneSnapshots, WallDisksOfACell_AreFoundAtAnyAngle) {
 
 TEST(PlaneSnapshots, WallDisksOfAnAssembly_AreAllThereOrNone) {
   Case setup = restingDisks();
-  WallGroup row;
-  row.position = {{-1.5, 5.0}, {0.5, 5.0}};
-  row.radius = 0.5;
+  WallGroup row{.position = {{-1.5, 5.0}, {0.5, 5.0}}, .radius = 0.5};
   row.motion.kind = Motion::Kind::translating;
   row.motion.velocity = {0.25, 0.0};
   assemblyIn<2>(setup).walls.push_back(row);

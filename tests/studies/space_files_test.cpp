@@ -28,18 +28,13 @@ namespace {
 namespace fs = std::filesystem;
 
 Case threeSpheres() {
-  Case setup;
-  setup.file = "three.toml";
-  setup.source = AssemblyOf<3>();
-  setup.dimension = 3;
+  Case setup{.dimension = 3, .source = AssemblyOf<3>(), .file = "three.toml"};
   setup.law.normal = NormalLaw::linear;
   setup.law.kn = 1000.0;
   setup.law.kt = 300.0;
   setup.law.mu = 0.5;
   AssemblyOf<3>& assembly = assemblyIn<3>(setup);
-  DiskGroupOf<3> group;
-  group.radius = 0.5;
-  group.mass = 2.0;
+  DiskGroupOf<3> group{.radius = 0.5, .mass = 2.0};
   group.places = {{0.2, 1.0, 2.0}, {3.3, 1.0, 2.0}, {2.0, 2.0, 0.48}};  // in diameters
   assembly.disks = {group};
   assembly.walls.resize(2);
@@ -360,8 +355,7 @@ TEST_F(SpaceFiles, MissingComponents_AreRefusedOrAbsent) {
                                       {"x,y,spin_z,radius,vx,vy,vz", "no column z"}}) {
     const std::string said =
         refused(names, "1,1,0.2,1,2,0.5,0,0,-1\n1,2,2,1,2,0.5,0,0,-1\n1,3,2,2,2,0.5,0,0,-1\n");
-    EXPECT_NE(said.find(column), std::string::npos) << said;
-    EXPECT_NE(said.find("a case in space takes all three components"), std::string::npos) << said;
+    test::expectSays(said, {column, "a case in space takes all three components"});
   }
   Texts texts = ofCsv().texts;
   std::string& contacts = texts.at("a-contacts.csv");

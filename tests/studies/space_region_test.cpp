@@ -15,9 +15,7 @@ namespace {
 
 /// Four slabs along z of a cell of 2 m × 3 m, periodic along x and y, between walls 4 m apart.
 Case slabsOfACell() {
-  Case setup;
-  setup.source = AssemblyOf<3>();
-  setup.dimension = 3;
+  Case setup{.dimension = 3, .source = AssemblyOf<3>()};
   DiskGroupOf<3> group;
   group.radius = 0.5;
   assemblyIn<3>(setup).disks = {group};
@@ -58,6 +56,16 @@ struct Cell3d {
   }
 };
 
+/// The run of one snapshot.
+FlowRun runOfOne(const Case& setup, const auto& scene, const auto& now) {
+  FlowAverages averages(setup, scene);
+  averages.add(now);
+  EXPECT_EQ(averages.snapshots(), 1U);
+  FlowRun run;
+  averages.describe({}, run);
+  return run;
+}
+
 double seriesEnd(const FlowRun& run, const char* name) {
   return valuesOf(*run.series, name).back().value_or(NAN);
 }
@@ -67,10 +75,7 @@ TEST(SpaceRegion, EveryNumberOfARegion_HasASeries) {
   for (const RegionNumber& number : regionNumbers(3))
     setup.endpoints.emplace_back().quantity = number.name;
   const Cell3d cell;
-  FlowAverages averages(setup, cell.scene);
-  averages.add(cell.now);
-  FlowRun run;
-  averages.describe({}, run);
+  const FlowRun run = runOfOne(setup, cell.scene, cell.now);
   for (const RegionNumber& number : regionNumbers(3))
     EXPECT_TRUE(run.series->contains(std::string(number.name))) << number.name;
 }
@@ -80,9 +85,7 @@ TEST(SpaceRegion, EveryNumberOfARegion_HasASeries) {
 TEST(SpaceRegion, OwnSpin_IsAboutAxesOfTheBodyAsTheyLayAtItsStart) {
   Case setup = slabsOfACell();
   for (const char* const axis : {"own_spin_x", "own_spin_y", "own_spin_z"}) {
-    Endpoint& endpoint = setup.endpoints.emplace_back();
-    endpoint.quantity = axis;
-    endpoint.disk = 0;
+    setup.endpoints.push_back({.quantity = axis, .disk = 0});
   }
   Cell3d cell;
   const double half = std::sqrt(0.5);
@@ -95,10 +98,7 @@ TEST(SpaceRegion, OwnSpin_IsAboutAxesOfTheBodyAsTheyLayAtItsStart) {
   cell.now.turn = {{now.w(), now.x(), now.y(), now.z()}, noTurn<3>()};
   (*cell.now.spin)[0] = {1.0, 2.0, 3.0};
   cell.now.contacts->point = {Vec3(0.1, 1.0, 0.0), Vec3(5.0, 1.0, 4.0)};
-  FlowAverages averages(setup, cell.scene);
-  averages.add(cell.now);
-  FlowRun run;
-  averages.describe({}, run);
+  const FlowRun run = runOfOne(setup, cell.scene, cell.now);
   EXPECT_NEAR(seriesEnd(run, "disk_0_own_spin_x"), 1.0, 1e-12);
   EXPECT_NEAR(seriesEnd(run, "disk_0_own_spin_y"), -2.0, 1e-12);
   EXPECT_NEAR(seriesEnd(run, "disk_0_own_spin_z"), -3.0, 1e-12);
@@ -107,11 +107,7 @@ TEST(SpaceRegion, OwnSpin_IsAboutAxesOfTheBodyAsTheyLayAtItsStart) {
 TEST(SpaceRegion, HasProfilesOverSlabsAndTheStressesOfItsWalls) {
   const Case setup = slabsOfACell();
   const Cell3d cell;
-  FlowAverages averages(setup, cell.scene);
-  averages.add(cell.now);
-  EXPECT_EQ(averages.snapshots(), 1U);
-  FlowRun run;
-  averages.describe({}, run);
+  const FlowRun run = runOfOne(setup, cell.scene, cell.now);
 
   const auto profile = [&](const char* field, std::size_t bin) {
     const Profile* found = profileOf(run.profiles, "slicing", field);
@@ -138,13 +134,9 @@ TEST(SpaceRegion, HasProfilesOverSlabsAndTheStressesOfItsWalls) {
   EXPECT_NEAR(seriesEnd(run, "kinetic_energy"), 0.5 + 1.5 + 0.5 * 0.1 * 4.0, 1e-15);
   EXPECT_NEAR(seriesEnd(run, "coordination"), 1.0, 1e-15);
 
-  Endpoint ratio;
-  ratio.quantity = "wall_shear_stress";
-  ratio.per = "wall_normal_stress";
+  Endpoint ratio{.quantity = "wall_shear_stress", .per = "wall_normal_stress"};
   EXPECT_NEAR(endpointValue(ratio, setup, run).value.value(), 1.0 / 3.0, 1e-15);
-  Endpoint middle;
-  middle.quantity = "stress_zz";
-  middle.reduction = Reduction::mean;
+  Endpoint middle{.quantity = "stress_zz", .reduction = Reduction::mean};
   EXPECT_NEAR(endpointValue(middle, setup, run).value.value(), (0.5 + 0.0 + 0.0 + 1.0) / 4.0,
               1e-15);
 }
@@ -155,10 +147,7 @@ TEST(SpaceRegion, ForcesThatTheEngineReportsCountForWalls) {
   cell.now.bodies.resize(2);
   cell.now.bodies[0].force = Vec3(-6.0, 0.0, 24.0);
   cell.now.bodies[1].force = Vec3(6.0, 0.0, -24.0);
-  FlowAverages averages(setup, cell.scene);
-  averages.add(cell.now);
-  FlowRun run;
-  averages.describe({}, run);
+  const FlowRun run = runOfOne(setup, cell.scene, cell.now);
   EXPECT_NEAR(seriesEnd(run, "wall_normal_stress"), 4.0, 1e-15);
   EXPECT_NEAR(seriesEnd(run, "wall_shear_stress"), 1.0, 1e-15);
 }
@@ -227,18 +216,12 @@ TEST(SpaceRegion, PeriodicPlaneHasStressesOfItsWallsToo) {
   now.bodies.resize(2);
   now.bodies[0].force = Vec2(0.5, -2.0);
   now.bodies[1].force = Vec2(-0.5, 2.0);
-  FlowAverages averages(setup, scene);
-  averages.add(now);
-  FlowRun run;
-  averages.describe({}, run);
+  const FlowRun run = runOfOne(setup, scene, now);
   EXPECT_NEAR(seriesEnd(run, "wall_normal_stress"), 2.0 / (2.0 * 0.5), 1e-15);
   EXPECT_NEAR(seriesEnd(run, "wall_shear_stress"), 0.5 / (2.0 * 0.5), 1e-15);
   scene.box.reset();
-  FlowAverages unbounded(setup, scene);
-  unbounded.add(now);
-  FlowRun other;
-  unbounded.describe({}, other);
-  EXPECT_FALSE(other.series->contains("wall_normal_stress")) << "no cell between two walls";
+  EXPECT_FALSE(runOfOne(setup, scene, now).series->contains("wall_normal_stress"))
+      << "no cell between two walls";
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 
 #include "adapters/grain.hpp"
 #include "tests/support/laws.hpp"
@@ -17,9 +16,7 @@ namespace fs = std::filesystem;
 
 /// Two disks that bounce on a floor.
 Scene bouncing() {
-  Scene scene;
-  scene.name = "bouncing";
-  scene.law = test::thesisLaw();
+  Scene scene{.name = "bouncing", .law = test::thesisLaw()};
   scene.law.gn = 0.05;
   scene.gravity = {0.3, -9.81};
   scene.dt = 4e-5;

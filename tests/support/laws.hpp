@@ -7,12 +7,7 @@ using namespace crossgrain::conformance;
 
 /// Impulses with restitutions e_n and e_t0 and Coulomb's µ.
 inline ContactLaw rigidLaw(double en, double et0, double mu) {
-  ContactLaw law;
-  law.normal = NormalLaw::rigid;
-  law.en = en;
-  law.et0 = et0;
-  law.mu = mu;
-  return law;
+  return ContactLaw{.normal = NormalLaw::rigid, .mu = mu, .en = en, .et0 = et0};
 }
 
 }  // namespace crossgrain::test

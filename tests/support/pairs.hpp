@@ -25,10 +25,7 @@ inline CollidingPair unequalPair() {
 
 /// Two small disks under the thesis' law, as a case has them.
 inline Case smallPairCase() {
-  Case setup;
-  setup.name = "pair";
-  setup.source = Collision();
-  setup.law = thesisLaw();
+  Case setup{.name = "pair", .source = Collision(), .law = thesisLaw()};
   for (const int side : {0, 1}) {
     collisionIn(setup).radius[side] = smallRadius;
     collisionIn(setup).mass[side] = smallMass;

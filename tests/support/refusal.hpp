@@ -1,6 +1,9 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <string>
+#include <vector>
 
 #include "support/bad_input.hpp"
 
@@ -15,6 +18,12 @@ std::string refusalOf(const auto& act) {
     return error.what();
   }
   return {};
+}
+
+/// Requires each of these words in a message.
+inline void expectSays(const std::string& message, const std::vector<std::string>& words) {
+  for (const std::string& word : words)
+    EXPECT_NE(message.find(word), std::string::npos) << word << " in: " << message;
 }
 
 }  // namespace crossgrain::test

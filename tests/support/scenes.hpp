@@ -16,11 +16,7 @@ inline void addPair(Scene& scene, const Vec2& middle, double vn, double psi, dou
 
 /// A body of one wall disk.
 inline WallBody diskWall(const Vec2& position, double radius) {
-  WallBody body;
-  body.name = "post";
-  body.diskPosition = {position};
-  body.diskRadius = {radius};
-  return body;
+  return WallBody{.name = "post", .diskPosition = {position}, .diskRadius = {radius}};
 }
 
 }  // namespace crossgrain::test

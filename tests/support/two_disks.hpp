@@ -12,10 +12,7 @@ inline Case twoDisks() {
   setup.law.normal = NormalLaw::linear;
   setup.law.kn = 100.0;
   setup.run.dt = 1e-3;
-  DiskGroup group;
-  group.radius = 0.5;
-  group.mass = 1.0;
-  group.places = {{0.0, 2.0}, {2.0, 2.0}};
+  DiskGroup group{.places = {{0.0, 2.0}, {2.0, 2.0}}, .radius = 0.5, .mass = 1.0};
   assemblyIn<2>(setup).disks = {group};
   assemblyIn<2>(setup).duration = 3.0;
   return setup;

@@ -11,6 +11,7 @@
 #include "cases/keys.hpp"
 #include "engines/grain/kernels.hpp"
 #include "law/law_options.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace {
 
@@ -43,12 +44,7 @@ Capabilities able() {
 /// Message of the refusal; "" where the scene is taken.
 std::string refusalOf(const Capabilities& can, const Scene& scene,
                       const std::vector<std::string>& mayDiffer) {
-  try {
-    adaptScene(can, scene, mayDiffer);
-  } catch (const UnsupportedScene& refused) {
-    return refused.what();
-  }
-  return "";
+  return test::refusalOf<UnsupportedScene>([&] { adaptScene(can, scene, mayDiffer); });
 }
 
 TEST(Effects, AreDerivedFromTheScene) {
@@ -366,12 +362,8 @@ TEST(LawOptions, UnknownNamesAndValuesAreSaid) {
   setLawOption(law, "lever_arm", "contact_point");
   EXPECT_EQ(law.conventions.leverArm, LeverArm::contactPoint);
   EXPECT_THROW(setLawOption(law, "lever", "radius"), std::invalid_argument);
-  try {
-    setLawOption(law, "tension", "maybe");
-    FAIL() << "no exception";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "tension cannot be 'maybe' (it is one of: allow, cut)");
-  }
+  EXPECT_EQ(test::refusalOf<std::invalid_argument>([&] { setLawOption(law, "tension", "maybe"); }),
+            "tension cannot be 'maybe' (it is one of: allow, cut)");
 }
 
 TEST(Registry, MirrorsNameTheirPeer) {

@@ -5,6 +5,7 @@
 #include "adapters/audit.hpp"
 #include "adapters/scene_limits.hpp"
 #include "adapters/start_check.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace crossgrain::test {
 namespace {
@@ -99,9 +100,7 @@ TEST(Cylinder, Contacts_AreAuditedWhereTheCylinderIs) {
   scene.bodies[0].motion.angularVelocity = {0.0, 0.0, 5.0};
   Capabilities can;
   can.lawOptions = {{"normal", {"linear"}}};
-  EffectiveParameters effective;
-  effective.dt = scene.dt;
-  effective.precision = "double";
+  EffectiveParameters effective{.dt = scene.dt, .precision = "double"};
   SpaceSnapshot shown;
   shown.position = scene.disks.position;
   shown.velocity = scene.disks.velocity;
@@ -122,8 +121,7 @@ TEST(Cylinder, Contacts_AreAuditedWhereTheCylinderIs) {
   EXPECT_EQ(why().find("contact 0 (sphere 0 with cylinder 0): overlaps by 1.1e-05 m"), 0u) << why();
   contacts.overlap[0] = depth;
   contacts.normal[0].y() = -1.0;
-  EXPECT_NE(why().find("its normal is (0.0000, -1.0000, 0.0000), from the positions"),
-            std::string::npos);
+  test::expectSays(why(), {"its normal is (0.0000, -1.0000, 0.0000), from the positions"});
   shown.contacts = ContactsOf<3>{};
   EXPECT_EQ(why(), "no contact of sphere 0 with cylinder 0, which overlap by 1e-05 m");
 }

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "tests/support/refusal.hpp"
 #include "tests/unit/grain_packed.hpp"
 
 namespace {
@@ -110,12 +111,7 @@ TEST(Checkpoints, DoNotChangeTheRunTheyAreTakenFrom) {
 /// Error of restoring into a simulation of `setup`; "" where it succeeds.
 std::string refusal(grain::Setup setup, const std::string& bytes) {
   Simulation simulation(std::move(setup));
-  try {
-    restore(simulation, bytes);
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusalOf<std::runtime_error>([&] { restore(simulation, bytes); });
 }
 
 std::string checkpoint() {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "engines/grain/contact_force.hpp"
 #include "tests/unit/grain_packed.hpp"
@@ -101,10 +100,7 @@ TEST(Dmt, ForceAndEquilibrium_AreTheClosedForms) {
 }
 
 TEST(CohesionAreas, OfTwoSpheres_AreTheirLensToFirstOrder) {
-  ContactLaw law;
-  law.kn = 1e5;
-  law.cohesion = CohesionLaw::area;
-  law.kc = 1e4;
+  ContactLaw law{.kn = 1e5, .cohesion = CohesionLaw::area, .kc = 1e4};
   // Radii 0.3 and 0.6 at a distance d: the circle in which the spheres meet, by Heron's formula.
   const double overlap = 0.02, s = 0.9, d = s - overlap;
   const double half = 0.5 * (0.3 + 0.6 + d);
@@ -135,12 +131,7 @@ TEST(CohesionAreas, OfTwoSpheres_AreTheirLensToFirstOrder) {
 
 /// k₁ = 1e3, k₂ = 4e3, k_c = 500.
 ContactLaw plasticLaw() {
-  ContactLaw law;
-  law.kn = 1e3;
-  law.kUnload = 4e3;
-  law.kc = 500.0;
-  law.cohesion = CohesionLaw::elastoPlastic;
-  return law;
+  return ContactLaw{.kn = 1e3, .cohesion = CohesionLaw::elastoPlastic, .kc = 500.0, .kUnload = 4e3};
 }
 
 TEST(ElastoPlastic, LoadingUnloadingAndPull_FollowTheirLines) {
@@ -224,10 +215,7 @@ TEST(ElastoPlastic, LaggedStiffness_LeavesDeltaZeroAsItWas) {
 
 /// Two disks of 1 kg that approach with v each.
 grain::Setup approaching(const ContactLaw& law, double v, double gap = 1e-9) {
-  grain::Setup setup;
-  setup.law = law;
-  setup.dt = 1e-5;
-  setup.ledger = true;
+  grain::Setup setup{.law = law, .dt = 1e-5, .ledger = true};
   setup.disks = {{-0.5 - 0.5 * gap, 0.5 + 0.5 * gap},
                  {0.0, 0.0},
                  {v, -v},

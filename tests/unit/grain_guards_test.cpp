@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 
+#include "tests/support/refusal.hpp"
 #include "tests/unit/grain_packed.hpp"
 
 // Errors that end a run: disks that overlap too much.
@@ -23,15 +23,12 @@ grain::Setup tunnelling() {
 /// @param time  gets when [s]
 std::string endOf(const grain::Setup& setup, int steps, double* time = nullptr) {
   Simulation simulation(setup);
-  try {
+  return test::refusalOf<std::runtime_error>([&] {
     for (int k = 0; k < steps; ++k) {
       simulation.step();
       if (time != nullptr) *time = simulation.time();
     }
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 constexpr int through = 100;  // 16 mm of approach, two diameters
@@ -80,9 +77,7 @@ TEST(OverlapGuard, CanBeSetAndSwitchedOff) {
 }
 
 TEST(OverlapGuard, LooksAtTheStart) {
-  grain::Setup setup;
-  setup.law = test::thesisLaw();
-  setup.dt = 4e-5;
+  grain::Setup setup{.law = test::thesisLaw(), .dt = 4e-5};
   test::addDisk(setup.disks, 0.0, 0.0, 0.0, 0.0, 0.0);
   test::addDisk(setup.disks, 0.9 * test::smallRadius, 0.0, 0.0, 0.0, 0.0);
   EXPECT_THROW(Simulation{setup}, std::runtime_error);
@@ -96,21 +91,14 @@ TEST(OverlapGuard, LetsADensePackingBe) {
 
 TEST(CoincidentCentres, AreAnErrorAndNotARunOnWithoutANumber) {
   for (const Precision precision : {Precision::float64, Precision::float32}) {
-    grain::Setup setup;
-    setup.law = test::thesisLaw();
-    setup.dt = 4e-5;
-    setup.precision = precision;
+    grain::Setup setup{.law = test::thesisLaw(), .dt = 4e-5, .precision = precision};
     for (int k = 0; k < 2; ++k) test::addDisk(setup.disks, 0.1, 0.2, 0.0, 0.0, 0.0);
     for (const double maxOverlap : {1.0, 0.0}) {
       setup.maxOverlap = maxOverlap;
-      try {
-        const Simulation simulation(setup);
-        FAIL() << "no exception";
-      } catch (const std::runtime_error& error) {
-        const std::string why = error.what();
-        EXPECT_EQ(why.rfind("disk 0 and disk 1 overlap by 0.0074 m", 0), 0u) << why;
-        EXPECT_NE(why.find("at (0.1, 0.2) m, t = 0 s"), std::string::npos) << why;
-      }
+      const std::string why =
+          test::refusalOf<std::runtime_error>([&] { const Simulation simulation(setup); });
+      EXPECT_TRUE(why.starts_with("disk 0 and disk 1 overlap by 0.0074 m")) << why;
+      test::expectSays(why, {"at (0.1, 0.2) m, t = 0 s"});
     }
   }
 }

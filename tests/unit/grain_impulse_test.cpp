@@ -334,12 +334,7 @@ TEST(GrainImpulse, SaysWhereImpactsDoNotEnd) {
   setup.disks.x = {0.999 * test::smallRadius};
   grain::Wall press;
   press.planes = {{1.998 * test::smallRadius, 0.0, -1.0, 0.0}};
-  press.motion = [](double t) {
-    grain::WallState state;
-    state.x = -0.01 * t;
-    state.vx = -0.01;
-    return state;
-  };
+  press.motion = [](double t) { return grain::WallState{.x = -0.01 * t, .vx = -0.01}; };
   setup.walls.push_back(press);
   Simulation simulation(setup);
   simulation.advance(10);

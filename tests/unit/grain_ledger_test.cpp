@@ -284,9 +284,7 @@ TEST(LedgerTerms, WorkOfAPlaneThatCompresses) {
 /// A disk coasts over the plate: first it only stretches the spring, then it slides: µ_b m g times
 /// the way, and in the end the spring holds it.
 TEST(LedgerTerms, PlateTakesWhatADiskLosesOnTheWay) {
-  grain::Setup setup;
-  setup.dt = 1e-5;
-  setup.bottom = BottomPlate{0.1, 200.0, 0.1, 0.0, 9.81, false};
+  grain::Setup setup{.bottom = BottomPlate{0.1, 200.0, 0.1, 0.0, 9.81, false}, .dt = 1e-5};
   test::addDisk(setup.disks, 0.0, 0.0, 0.06, 0.08, 0.0);
   double springs = 0.0;
   const EnergyLedger end = ledgerOf(setup, 0.2, [&](const Simulation& s) {
@@ -306,9 +304,7 @@ TEST(LedgerTerms, PlateTakesWhatADiskLosesOnTheWay) {
 TEST(LedgerTerms, PlateIsOfFirstOrder) {
   const double order = orderOf(
       [](double dt) {
-        grain::Setup setup;
-        setup.dt = dt;
-        setup.bottom = BottomPlate{1.0, 200.0, 0.02, 1e-4, 9.81, true};
+        grain::Setup setup{.bottom = BottomPlate{1.0, 200.0, 0.02, 1e-4, 9.81, true}, .dt = dt};
         test::addDisk(setup.disks, 0.0, 0.0, 1e-4, 0.0, 0.0);
         return setup;
       },

@@ -192,9 +192,7 @@ TEST_P(Lists, FindTheDisksOfAWallThatSetsOff) {
 }
 
 TEST(EmptyLists, BelongToAnEmptyScene) {
-  grain::Setup setup;
-  setup.law = test::thesisLaw();
-  setup.dt = 4e-5;
+  grain::Setup setup{.law = test::thesisLaw(), .dt = 4e-5};
   for (const bool withWheel : {false, true}) {
     if (withWheel) setup.walls = {test::wheel(0.0, 0.0, 0.05, 1.0)};
     for (const int threads : {1, 3}) {
@@ -209,10 +207,7 @@ TEST(EmptyLists, BelongToAnEmptyScene) {
 
 TEST(EmptyLists, BelongToOneDiskThatFliesStraight) {
   for (const Precision precision : {Precision::float64, Precision::float32}) {
-    grain::Setup setup;
-    setup.law = test::thesisLaw();
-    setup.dt = 0x1p-14;
-    setup.precision = precision;
+    grain::Setup setup{.law = test::thesisLaw(), .dt = 0x1p-14, .precision = precision};
     test::addDisk(setup.disks, 0.0, 0.0, 0.5, -0.25, 3.0);
     Simulation simulation(setup);
     simulation.advance(10000);

@@ -21,8 +21,7 @@ namespace test = crossgrain::test;
 /// Two materials, of which disks are in turn; walls are of the second.
 Setup mixed(Setup setup,
             const std::function<void(ContactLaw& aa, ContactLaw& ab, ContactLaw& bb)>& change) {
-  Materials& materials = setup.materials.emplace();
-  materials.count = 2;
+  Materials& materials = setup.materials.emplace(Materials{.count = 2});
   for (std::size_t i = 0; i < setup.disks.size(); ++i)
     materials.ofDisk.push_back(static_cast<std::int32_t>(i % 2));
   materials.ofWall.assign(setup.walls.size(), 1);
@@ -131,8 +130,7 @@ TEST(Materials, EachPair_MovesAsUnderItsLawAlone) {
     laws[0].en = 0.5;
     laws[2].et0 = 0.0;
     grain::Setup mixture = scene.setup;
-    Materials& materials = mixture.materials.emplace();
-    materials.count = 2;
+    Materials& materials = mixture.materials.emplace(Materials{.count = 2});
     materials.ofDisk.assign(std::begin(scene.materials), std::end(scene.materials));
     materials.ofWall = {1};
     materials.laws = {laws[0], laws[1], laws[1], laws[2]};

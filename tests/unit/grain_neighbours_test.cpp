@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engines/grain/pair_lists.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/unit/grain_scenes.hpp"
 
 namespace {
@@ -145,12 +146,8 @@ TEST_P(Neighbours, ADiskFarAwayDoesNotBlowUpTheGrid) {
 TEST(NeighboursOfASimulation, ADiskThatIsNotFiniteIsNamedByItsNumber) {
   grain::Setup setup = test::crowd(8, 9, 4e-5);
   setup.disks.vx[17] = std::numeric_limits<double>::quiet_NaN();
-  try {
-    grain::Simulation(std::move(setup)).advance(2);
-    FAIL() << "no exception";
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "the position of disk 17 is not finite");
-  }
+  EXPECT_EQ(test::refusalOf<std::runtime_error>([&] { test::advanced(setup, 2); }),
+            "the position of disk 17 is not finite");
 }
 
 }  // namespace

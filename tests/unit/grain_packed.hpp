@@ -42,9 +42,7 @@ inline std::vector<grain::Wall> box(double width, double height, double swing) {
 /// About side² disks of radius 3.7 mm ± 10 % at volume fraction 0.83 in a box, off their triangular
 /// lattice by a little, around a wheel that shears them. Many touch from the start.
 inline grain::Setup packed(int side, std::uint64_t seed) {
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = 4e-5;
+  grain::Setup setup{.law = thesisLaw(), .dt = 4e-5};
   Draw draw(seed);
   const auto uniform = [&] { return draw.uniform(-1.0, 1.0); };
   const double spacing = 2.0 * smallRadius * 1.045, row = spacing * std::sqrt(0.75);

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 
 #include "engines/grain/contact_force.hpp"
 #include "tests/unit/grain_packed.hpp"
@@ -33,9 +32,7 @@ ContactLaw rollingLaw(RollingLaw rolling) {
 
 /// A disk at rest on a plane that falls by `slope` = tan β to the right.
 grain::Setup onPlane(const ContactLaw& law, double slope = 0.0) {
-  grain::Setup setup;
-  setup.law = law;
-  setup.dt = 2e-5;
+  grain::Setup setup{.law = law, .dt = 2e-5};
   const double beta = std::atan(slope);
   setup.gravityX = g * std::sin(beta);
   setup.gravityY = -g * std::cos(beta);
@@ -197,9 +194,7 @@ TEST(RollingSpring, RollingDisk_StopsAfterItsClosedDistanceAndTheSpringsOwn) {
 
 /// Two heavy disks of unequal radii, pressed together; `turn` [rad/s] of the first.
 grain::Setup heldPair(const ContactLaw& law, double overlap, double turn) {
-  grain::Setup setup;
-  setup.law = law;
-  setup.dt = 1e-5;
+  grain::Setup setup{.law = law, .dt = 1e-5};
   const double heavy = 1e9, light = 1e-3;
   setup.disks = {{0.0, 0.3 - overlap}, {0.0, 0.0}, {0.0, 0.0},     {0.0, 0.0},
                  {turn, 0.0},          {0.1, 0.2}, {heavy, heavy}, {light, 2.0 * light}};

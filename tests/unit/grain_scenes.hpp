@@ -74,9 +74,7 @@ inline void addDisk(grain::Disks& disks, double x, double y, double vx, double v
 /// Two small disks that touch half a step after t = 0 and approach with v [m/s] along x, offset
 /// sideways by `impact` (sine of the impact angle), each with that spin.
 inline grain::Setup collidingPair(double v, double impact, double spin, double dt) {
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = dt;
+  grain::Setup setup{.law = thesisLaw(), .dt = dt};
   const double nx = std::sqrt(1.0 - impact * impact);
   const double ahead = 0.25 * v * dt;
   addDisk(setup.disks, smallRadius * nx + ahead, smallRadius * impact, -0.5 * v, 0.0, spin);
@@ -104,9 +102,7 @@ inline void putOnPlane(grain::Setup& setup) {
 
 /// A loose heap of disks with random velocities and spins, so that many collide at once.
 inline grain::Setup crowd(int side, std::uint64_t seed, double dt) {
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = dt;
+  grain::Setup setup{.law = thesisLaw(), .dt = dt};
   Draw draw(seed);
   const auto uniform = [&] { return draw.uniform(-0.5, 0.5); };
   for (int i = 0; i < side; ++i)

@@ -11,10 +11,7 @@ using namespace crossgrain::test;
 
 /// A disk that its weight has sunk into a floor, x at v [m/s].
 grain::Setup onAFloor(double v, double dt) {
-  grain::Setup setup;
-  setup.law = thesisLaw();
-  setup.dt = dt;
-  setup.gravityY = -9.81;
+  grain::Setup setup{.law = thesisLaw(), .gravityY = -9.81, .dt = dt};
   const double sink = smallMass * 9.81 / thesis.kn;  // k_n δ = m g
   addDisk(setup.disks, 0.0, smallRadius - sink, v, 0.0, 0.0);
   setup.walls.push_back(standing({{0.0, 0.0, 0.0, 1.0}}));
@@ -46,12 +43,7 @@ TEST(GrainWalls, AWheelTurnsExactlyAndFeelsTheOppositeForceAndTorque) {
   wheel.diskY = {0.0};
   wheel.diskRadius = {wallRadius};
   const double omega = 2.0;
-  wheel.motion = [&](double t) {
-    WallState now;
-    now.angle = omega * t;
-    now.spin = omega;
-    return now;
-  };
+  wheel.motion = [&](double t) { return WallState{.angle = omega * t, .spin = omega}; };
   grain::Setup setup;
   setup.law = thesisLaw();
   setup.law.conventions.leverArm = LeverArm::contactPoint;

@@ -7,24 +7,20 @@
 #include <limits>
 
 #include "engines/cpp/crossgrain_worker.hpp"
+#include "support/files.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace crossgrain {
 namespace {
 
 class ArrayFile : public ::testing::Test {
  protected:
-  std::filesystem::path file_ =
-      std::filesystem::path(::testing::TempDir()) /
-      (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".bin");
-  ~ArrayFile() override { std::filesystem::remove(file_); }
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_.path() / "arrays.bin";
 
   std::string failureOf(const nlohmann::json& list) const {
-    try {
-      ArrayReader reader(file_, list);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return {};
+    return test::refusalOf<std::runtime_error>([&] { ArrayReader reader(file_, list); });
   }
 };
 
@@ -100,14 +96,7 @@ TEST_F(ArrayFile, NanInfinityOrWrongCount_IsRefused) {
   writer.add("v", std::vector<Vec2>{{1.0, 2.0}});
   const ArrayReader reader(file_, writer.write(file_));
   const std::string name = file_.filename().string();
-  const auto failure = [](auto read) {
-    try {
-      read();
-    } catch (const std::runtime_error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
+  const auto failure = [](auto read) { return test::refusalOf<std::runtime_error>(read); };
   EXPECT_EQ(failure([&] { reader.f64("x", 2); }), name + ": x[1] is inf");
   EXPECT_EQ(failure([&] { reader.vectors<2>("v", 2); }), name + ": v is 2 × f64, expected 4 × f64");
   EXPECT_EQ(failure([&] { reader.i32("x", 2); }), name + ": x is 2 × f64, expected 2 × i32");
@@ -118,17 +107,8 @@ namespace fs = std::filesystem;
 
 class FileOfExchanges : public ::testing::Test {
  protected:
-  fs::path folder_ = fs::path(::testing::TempDir()) / "crossgrain-exchange-file";
-  void SetUp() override {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~FileOfExchanges() override { fs::remove_all(folder_); }
-
-  static std::string contentOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
+  const TemporaryFolder own_;
+  const fs::path folder_ = own_.path();
 
   static ArrayWriter numbers(std::size_t count) {
     ArrayWriter arrays;
@@ -144,7 +124,7 @@ TEST_F(FileOfExchanges, Kept_NextExchange_HoldsNoNumber) {
   EXPECT_EQ(file.read(file.write(numbers(3))).f64("numbers", 3), std::vector(3, 0.1));
   file.done();
   EXPECT_EQ(file.next(true), path);
-  EXPECT_EQ(contentOf(path), std::string(24, '\xff'));
+  EXPECT_EQ(readFile(path), std::string(24, '\xff'));
   EXPECT_THROW(file.read(numbers(3).list()).f64("numbers", 3), std::runtime_error);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "law/law_options.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/worker/toy_engine.hpp"
 
 namespace crossgrain {
@@ -228,14 +229,7 @@ TEST(WorkerJson, RequiredKey_MissingOrNull_IsRefusedByName) {
   test::ToyEngine engine;
   const Json can = jsonOf(engine.capabilities());
   const Json effective = jsonOf(engine.load(test::toyScene(), {}));
-  const auto refusal = [](auto read) -> std::string {
-    try {
-      read();
-    } catch (const std::exception& error) {
-      return error.what();
-    }
-    return "none";
-  };
+  const auto refusal = [](auto read) { return test::refusalOf<std::exception>(read); };
   for (const char* key : {"dt", "precision", "effects", "pairs"})
     for (const bool missing : {true, false}) {
       Json broken = effective;

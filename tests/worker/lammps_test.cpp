@@ -2,11 +2,11 @@
 // engine must do is asked of it, as of every other, in tests/conformance; that flows of these laws
 // are those of their mirrors, in tests/system/test_peers.py.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <numbers>
 
 #include "adapters/registry.hpp"
@@ -31,20 +31,14 @@ Scene emptyScene(NormalLaw normal) {
 /// One worker for all tests of an engine: each test then also shows that loading starts afresh.
 class LammpsWorkers : public ::testing::TestWithParam<const char*> {
  protected:
-  static void TearDownTestSuite() { std::filesystem::remove_all(scratch()); }
   void SetUp() override {
     const bool lammps = GetParam() == std::string("lammps");
     if (!isOnPath(lammps ? "lmp" : "liggghts")) GTEST_SKIP() << GetParam() << " is not installed";
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);  // as liggghts.toml does
     const ProgramCall call({"/usr/bin/python3", workerScript(GetParam()).string()});
-    engine_ = std::make_unique<WorkerEngine>(GetParam(), call, scratch() / GetParam(), 120.0);
+    engine_ = std::make_unique<WorkerEngine>(
+        GetParam(), call, std::filesystem::path(testing::TempDir()) / GetParam(), 120.0);
   }
-  /// Of this process alone: others may run at the same time.
-  static std::filesystem::path scratch() {
-    return std::filesystem::path(::testing::TempDir()) /
-           ("crossgrain-lammps-" + std::to_string(getpid()));
-  }
-
   std::unique_ptr<WorkerEngine> engine_;
 };
 

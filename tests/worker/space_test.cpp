@@ -2,11 +2,11 @@
 // in-house engine with each one's conventions. Pairs, borders, frames and walls that move are asked
 // of them, as of every engine, in tests/conformance and tests/system/test_peers.py.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 
 #include "adapters/registry.hpp"
@@ -15,6 +15,7 @@
 #include "studies/conformance/space_scenes.hpp"
 #include "support/data_folder.hpp"
 #include "support/files.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace crossgrain::test {
@@ -33,11 +34,7 @@ ContactLaw springLaw() {
 }
 
 SpaceScene emptyScene() {
-  SpaceScene scene;
-  scene.name = "space test";
-  scene.law = springLaw();
-  scene.dt = 4e-6;
-  return scene;
+  return SpaceScene{.name = "space test", .law = springLaw(), .dt = 4e-6};
 }
 
 /// The same numbers again and again, between −1 and 1.
@@ -57,9 +54,7 @@ constexpr int columns = 6, rows = 5, layers = 3;
 
 /// A sheet of wall spheres, which touch each other.
 WallBodyOf<3> sheet(const char* name, double height, const Vec3& shift) {
-  WallBodyOf<3> wall;
-  wall.name = name;
-  wall.centre = shift + Vec3(0.01, 0.02, height);
+  WallBodyOf<3> wall{.name = name, .centre = shift + Vec3(0.01, 0.02, height)};
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
       wall.diskPosition.push_back(shift + Vec3((2 * x + 1) * radius, (2 * y + 1) * radius, height));
@@ -109,10 +104,7 @@ SpaceSnapshot snapshotAt(Engine& engine, double t) {
 
 class Space : public ::testing::TestWithParam<const char*> {
  protected:
-  static void TearDownTestSuite() {
-    started_.clear();
-    std::filesystem::remove_all(scratch());
-  }
+  static void TearDownTestSuite() { started_.clear(); }
   void SetUp() override {
     const std::string name = GetParam();
     ProgramCall call({"/usr/bin/python3", workerScript(name).string()});
@@ -120,12 +112,10 @@ class Space : public ::testing::TestWithParam<const char*> {
     if (!isOnPath(name == "lammps" ? "lmp" : name)) GTEST_SKIP() << name << " is not installed";
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 1);  // as liggghts.toml does
     std::unique_ptr<WorkerEngine>& engine = started_[name];
-    if (!engine) engine = std::make_unique<WorkerEngine>(name, call, scratch() / name, 120.0);
+    if (!engine)
+      engine = std::make_unique<WorkerEngine>(
+          name, call, std::filesystem::path(testing::TempDir()) / name, 120.0);
     engine_ = engine.get();
-  }
-  static std::filesystem::path scratch() {
-    return std::filesystem::path(::testing::TempDir()) /
-           ("crossgrain-space-" + std::to_string(getpid()));
   }
   /// With the conventions that the engine has.
   SpaceScene asRun(SpaceScene scene) const {
@@ -383,12 +373,7 @@ TEST_P(Space, WhatItDoesNotHave_IsRefused) {
   SpaceScene scene = shearedLayers(0.0);
   scene.bodies[0].motion.kind = MotionKind::radial;
   const auto refusal = [&] {
-    try {
-      engine_->loadInSpace(asRun(scene), {});
-    } catch (const UnsupportedScene& error) {
-      return std::string(error.what());
-    }
-    return std::string("ran");
+    return test::refusalOf<UnsupportedScene>([&] { engine_->loadInSpace(asRun(scene), {}); });
   };
   EXPECT_EQ(refusal(),
             "has walls that are fixed | rotating | translating | oscillating in space, not radial");

@@ -4,7 +4,6 @@
 #include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <chrono>
@@ -16,6 +15,8 @@
 
 #include "adapters/worker/answer.hpp"
 #include "support/interrupt.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/worker/toy_engine.hpp"
 
 namespace crossgrain {
@@ -29,24 +30,16 @@ std::vector<std::string> toyCommand(const std::string& mischief) {
 
 class Worker : public ::testing::Test {
  protected:
-  std::filesystem::path scratch_ =
-      std::filesystem::path(::testing::TempDir()) /
-      (std::string("crossgrain-") +
-       ::testing::UnitTest::GetInstance()->current_test_info()->name());
-  ~Worker() override { std::filesystem::remove_all(scratch_); }
+  const TemporaryFolder folder_;
+  const std::filesystem::path scratch_ = folder_.path() / "worker";
 
   std::unique_ptr<WorkerEngine> start(const std::string& mischief, double timeout = 20.0) {
     return std::make_unique<WorkerEngine>("toy", toyCommand(mischief), scratch_, timeout);
   }
 
-  template <typename Failure = EngineFailure, typename Action>
-  static std::string failureOf(Action&& action) {
-    try {
-      action();
-    } catch (const Failure& error) {
-      return error.what();
-    }
-    return "no failure";
+  template <typename Failure = EngineFailure>
+  static std::string failureOf(const auto& action) {
+    return test::refusalOf<Failure>(action);
   }
 
   std::set<std::string> filesLeft() const {
@@ -231,7 +224,7 @@ TEST_F(Worker, PipeOrLinkInTheScratchFolder_HoldsNobody) {
   ASSERT_EQ(::mkfifo(log.c_str(), 0600), 0);
   EXPECT_EQ(failureOf([&] { engine->advance(0.5); }),
             "toy, toy at t = 0 s: ended (exit status 3) during advance(t = 0.5 s)");
-  EXPECT_EQ(failureOf([&] { start("")->load(test::toyScene(), {}); }), "no failure");
+  EXPECT_EQ(failureOf([&] { start("")->load(test::toyScene(), {}); }), "");
 }
 
 TEST_F(Worker, BeyondItsMemory_Ends) {

@@ -9,6 +9,8 @@
 #include <fstream>
 #include <thread>
 
+#include "support/files.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/worker/toy_engine.hpp"
 
 namespace crossgrain {
@@ -18,11 +20,8 @@ namespace fs = std::filesystem;
 
 class Pool : public ::testing::Test {
  protected:
-  fs::path scratch_ = fs::path(::testing::TempDir()) /
-                      (std::string("crossgrain-pool-") +
-                       ::testing::UnitTest::GetInstance()->current_test_info()->name());
-  void SetUp() override { fs::remove_all(scratch_); }
-  ~Pool() override { fs::remove_all(scratch_); }
+  const TemporaryFolder folder_;
+  const fs::path scratch_ = folder_.path();
 
   static WorkerPool::Kind kindOf(const std::string& mischief) {
     return {"toy", {{fs::read_symlink("/proc/self/exe").string(), "--worker", mischief}}};
@@ -55,8 +54,7 @@ class Pool : public ::testing::Test {
   }
 
   std::string logOf(const std::string& run) const {
-    std::ifstream in(scratch_ / run / "toy.log");
-    return {std::istreambuf_iterator<char>(in), {}};
+    return readFile(scratch_ / run / "toy.log").value();
   }
 
   /// Ends a worker, and waits until the kernel says so; it stays to be reaped.
@@ -209,18 +207,17 @@ TEST_F(Pool, StartingThreadEnded_WorkerLives) {
 }
 
 TEST(PoolEnd, Pool_LeavesNoChild) {
-  const fs::path scratch = fs::path(::testing::TempDir()) / "crossgrain-pool-end";
+  const TemporaryFolder scratch;
   pid_t pid = -1;
   {
     WorkerPool pool;
     const WorkerPool::Kind kind{"toy",
                                 {{fs::read_symlink("/proc/self/exe").string(), "--worker", ""}}};
-    pid = PooledEngine(pool, kind, scratch, 20.0).pid();
+    pid = PooledEngine(pool, kind, scratch.path(), 20.0).pid();
     EXPECT_EQ(::kill(pid, 0), 0) << "it waits";
   }
   EXPECT_EQ(::kill(pid, 0), -1);
   EXPECT_EQ(errno, ESRCH) << "it has ended and was reaped";
-  fs::remove_all(scratch);
 }
 
 }  // namespace
