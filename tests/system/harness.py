@@ -54,6 +54,13 @@ def settings(**changes):
     ]
 
 
+def installed_engines():
+    """Capabilities by name. An engine that is there and does not start has none, and is an error."""
+    done = subprocess.run([PROGRAM, "engines", "--json"], capture_output=True, check=True)
+    there = [row for row in json.loads(done.stdout) if "is not available" not in row.get("missing", "")]
+    return {row["name"]: row["capabilities"] for row in there}
+
+
 def recorded_exchanges(recording):
     """Request, answer and the array file of the answer of each exchange of a recording (docs/files.md)."""
     with open(recording, "rb") as file:

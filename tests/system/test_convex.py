@@ -1,13 +1,12 @@
 """Convex bodies against closed forms, on the engines that are there: what each engine of the table does within the case's margins."""
 
 import json
-import subprocess
 import sys
 import unittest
 
 import h5py
 
-from harness import BAD_INPUT, BUILD, CASES, FELL_SHORT, HELD, HOME, PROGRAM, SystemTest
+from harness import BAD_INPUT, BUILD, CASES, FELL_SHORT, HELD, HOME, SystemTest, installed_engines
 
 sys.path.insert(0, str(HOME / "python"))
 import crossgrain  # noqa: E402
@@ -65,12 +64,11 @@ HARD = {
 }
 
 
-def installed_engines():
-    done = subprocess.run([PROGRAM, "engines", "--json"], capture_output=True, check=True)
-    return {row["name"] for row in json.loads(done.stdout) if "is not available" not in row.get("missing", "")}
-
-
 INSTALLED = installed_engines()
+
+
+def needs(engine):
+    return unittest.skipUnless(engine in INSTALLED, f"{engine} is not installed")
 
 
 class Convex(SystemTest):
@@ -97,7 +95,7 @@ class Convex(SystemTest):
                 for row in rows:
                     self.assertLess(abs(float(row["distance"])), 1.0, row)
 
-    @unittest.skipUnless("havok" in INSTALLED, "havok is not installed")
+    @needs("havok")
     def test_body_that_never_turns_over_is_seen(self):
         """Energy, which Havok keeps, does not show that its Euler term is missing."""
         done = self.run_program("compare", CASES / "convex/free-rotation.toml", "--engines=havok", "--out", self.out, "--no-causes", "--quiet")
@@ -106,13 +104,13 @@ class Convex(SystemTest):
         self.assertLess(abs(float(rows["energy"]["distance"])), 1.0)
         self.assertGreater(abs(float(rows["turned_over"]["distance"])), 10.0)
 
-    @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
+    @needs("bullet")
     def test_no_mirror_runs_the_disks_around_bodies(self):
         done = self.run_program("lockstep", CASES / "convex/slide.toml", "--engines", "bullet", "--out", self.folder / "out")
         self.assert_status(done, FELL_SHORT)
         self.assertIn("not measured: there is no mirror: grain, which mirrors are made of, has no convex bodies", done.stdout)
 
-    @unittest.skipUnless("box2d-v3" in INSTALLED, "box2d-v3 is not installed")
+    @needs("box2d-v3")
     def test_too_many_vertices_are_refused_in_one_line(self):
         done = self.run_program("check", CASES / "convex/rolling-polygon-12.toml", "--no-timing", "--engines", "box2d-v3")
         self.assert_status(done, FELL_SHORT)
@@ -136,7 +134,7 @@ class Convex(SystemTest):
             self.assertEqual(run, read, table)
         return file
 
-    @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
+    @needs("bullet")
     def test_averages_of_a_file_are_those_of_its_run(self):
         case = CASES / "convex/heap.toml"
         changes = ["--set", "preparation.packings=1", "--set", "assembly.duration=0.5", "--set", "average.from=0.3"]
@@ -155,11 +153,11 @@ class Convex(SystemTest):
         ):
             self.assert_one_error(self.run_program(*words), BAD_INPUT, why)
 
-    @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
+    @needs("bullet")
     def test_so_are_those_of_a_body_that_touches_nothing_at_times(self):
         self.assert_file_is_the_run(CASES / "convex/tip.toml")
 
-    @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
+    @needs("bullet")
     def test_boxes_in_space_are_those_of_the_file_and_of_ondem(self):
         case, words = CASES / "convex/spin-on-the-spot.toml", ["--out", self.folder / "box", "--quiet"]
         file = self.assert_file_is_the_run(case)
@@ -179,13 +177,13 @@ class Convex(SystemTest):
         done = self.run_program("export", "lammps", self.kept(case), case, *words)
         self.assert_one_error(done, BAD_INPUT, "format lammps: has no box, as spin-on-the-spot has")
 
-    @unittest.skipUnless("bullet" in INSTALLED, "bullet is not installed")
+    @needs("bullet")
     def test_planted_faults_are_found_and_named(self):
         def checked(fault):
             engine = self.faulty(fault, "bullet")
             out = self.folder / fault
             done = self.run_program("conformance", engine, "-k", "Convex", "--out", out, "--quiet")
-            results = json.loads((out / "results.json").read_text())
+            results = self.results(out)
             return done, {row["check"] for row in results["checks"] if row["outcome"] == "failed"}, results["cause"]
 
         done, failed, _ = checked("none")

@@ -31,6 +31,7 @@ from harness import (
     SystemTest,
     command_line,
     cpu_time,
+    installed_engines,
     marked_processes,
     recorded_exchanges,
     settings,
@@ -43,13 +44,6 @@ MU, EN = 0.44, 0.9  # of cases/collision/hard-sphere.toml
 # Each engine × each law, case and rank, and the whole suite of rigid engines: cmake --build … --target all_of_peers
 AT_NIGHT = "CROSSGRAIN_AT_NIGHT" in os.environ
 at_night = unittest.skipUnless(AT_NIGHT, "for the night")
-
-
-def installed_engines():
-    """Capabilities by name. An engine that is there and does not start has none, and is an error."""
-    done = subprocess.run([PROGRAM, "engines", "--json"], capture_output=True, check=True)
-    there = [row for row in json.loads(done.stdout) if "is not available" not in row.get("missing", "")]
-    return {row["name"]: row["capabilities"] for row in there}
 
 
 INSTALLED = installed_engines()

@@ -10,7 +10,7 @@ import re
 import subprocess
 import unittest
 
-from harness import PROGRAM, SystemTest
+from harness import SystemTest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SAMPLES = pathlib.Path(os.environ["CROSSGRAIN_BUILD"]) / "tests/reports/crossgrain_sample_reports"

@@ -14,10 +14,7 @@ int main(int, char** arguments) {
   engine->load(scene, {});
   engine->advance(10.0 * scene.dt);
   const Snapshot snapshot = engine->snapshot(ContactReport::none);
-  ContactLaw law;
-  law.normal = NormalLaw::linear;
-  law.tangential = TangentialLaw::none;
-  law.kn = 100.0;
+  ContactLaw law{.normal = NormalLaw::linear, .tangential = TangentialLaw::none, .kn = 100.0};
   std::printf("%zu disks, e_n %.6f\n", snapshot.position.size(),
               oracleOutcome(law, diskOnWall(1.0, 1.0, 0.5), {0.0, 0.01}).en);
 }
