@@ -1,7 +1,6 @@
 // Materials: pairs of bodies with laws of their own.
 #include "cases/materials.hpp"
 
-
 #include "adapters/effects.hpp"
 #include "cases/assembly_scene.hpp"
 #include "cases/couette.hpp"

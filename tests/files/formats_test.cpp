@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-
 #include "tests/files/samples.hpp"
 #include "tests/support/refusal.hpp"
 

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstring>
 
-
 #include "tests/files/samples.hpp"
 
 namespace {

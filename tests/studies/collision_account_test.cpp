@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "adapters/box2d_common.hpp"
 #include "tests/studies/collision_sweeps.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "adapters/grain.hpp"
 #include "tests/support/laws.hpp"
 #include "tests/support/refusal.hpp"

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-
 #include "tests/support/refusal.hpp"
 #include "tests/unit/grain_packed.hpp"
 
