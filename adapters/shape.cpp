@@ -274,8 +274,10 @@ std::string shapeFault<2>(const ShapeOf<2>& shape) {
   if (area < 0.0) return "has its vertices clockwise; they are to be counter-clockwise";
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 side = at[(k + 1) % n] - at[k], next = at[(k + 2) % n] - at[(k + 1) % n];
-    if (cross(side, next) <= geometricRounding * side.norm() * next.norm())
-      return fmt::format("is not convex at vertex {}", (k + 1) % n);
+    const double bend = cross(side, next), straight = geometricRounding * side.norm() * next.norm();
+    if (bend < -straight) return fmt::format("is not convex at vertex {}", (k + 1) % n);
+    if (bend <= straight)
+      return fmt::format("is straight at vertex {}, which is no corner: leave it out", (k + 1) % n);
   }
   if (turned > 3.0 * pi) return "has an outline that crosses itself";
   return {};
@@ -297,7 +299,9 @@ std::string shapeFault<3>(const ShapeOf<3>& shape) {
   for (const auto& face : faces)
     for (const std::size_t v : face) ++meeting[v];
   for (std::size_t v = 0; v < at.size(); ++v)
-    if (meeting[v] < 3) return fmt::format("is not convex at vertex {}: it is no corner", v);
+    if (meeting[v] < 3)
+      return fmt::format("is not convex, or flat, at vertex {}, which is no corner: leave it out",
+                         v);
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -65,10 +66,56 @@ void cautionsOfVerdicts(const Case& setup, Lines& lines) {
 
 /// Grains are not as large as people; numbers in mm are. A diameter of just 1 is a scene's unit.
 void cautionsOfLengths(const Case& setup, Lines& lines) {
-  constexpr double large = 1.0;    // of a disk's diameter [m]
-  if (packingFile(setup)) return;  // its radii are in a file that is not read yet
-  if (const double d = flowDiameter(setup); d > large)
-    lines.push_back(fmt::format("the smallest disks are {:g} m across: are lengths in mm?", d));
+  constexpr double large = 1.0, tiny = 1e-9;  // of a disk's diameter [m]
+  if (packingFile(setup)) return;             // its radii are in a file that is not read yet
+  const double d = flowDiameter(setup);
+  const char* const what = anyConvex(setup) ? "bodies" : "disks";
+  if (d > large)
+    lines.push_back(fmt::format("the smallest {} are {:g} m across: are lengths in mm?", what, d));
+  if (d < tiny)
+    lines.push_back(fmt::format("the smallest {} are {:g} m across, as molecules are", what, d));
+}
+
+/// Contacts of engines begin and end within a skin of about a thousandth of a body.
+template <int D>
+void cautionOfShape(const ShapeOf<D>& shape, const std::string& where, Lines& lines) {
+  constexpr double thin = 1e-3;
+  const Eigen::Matrix<double, D, 1> spread =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, D, D>>(massOf(shape).second)
+          .eigenvalues();
+  const double ratio = std::sqrt(std::max(spread[0], 0.0) / spread[D - 1]);
+  if (ratio < thin)
+    lines.push_back(
+        fmt::format("{} is {} times as thin as long: engines resolve a body to about {} of it",
+                    where, ratio > 0.0 ? fmt::format("{:.2g}", 1.0 / ratio) : "1e16", thin));
+}
+
+template <int D>
+void cautionsOfShapes(const AssemblyOf<D>& assembly, Lines& lines) {
+  for (std::size_t k = 0; k < assembly.disks.size(); ++k)
+    if (const auto& shape = assembly.disks[k].shape)
+      cautionOfShape(*shape, fmt::format("assembly.disks[{}].shape", k), lines);
+  for (std::size_t k = 0; k < assembly.starts.shapes.size(); ++k)
+    cautionOfShape(assembly.starts.shapes[k], fmt::format("shape {} of assembly.start", k), lines);
+}
+
+template <int D>
+void cautionsOfShapes(const ConvexPairOf<D>& pair, Lines& lines) {
+  for (const auto& body : pair.body)
+    if (body.shape)
+      cautionOfShape(*body.shape, &body == pair.body ? "collision.shape" : "collision.second_shape",
+                     lines);
+}
+
+void cautionsOfShapes(const Case& setup, Lines& lines) {
+  const auto of = [&](const auto* bodies) {
+    if (bodies) cautionsOfShapes(*bodies, lines);
+  };
+  of(std::get_if<AssemblyOf<2>>(&setup.source));
+  of(std::get_if<AssemblyOf<3>>(&setup.source));
+  if (!isCollision(setup)) return;
+  of(std::get_if<ConvexPairOf<2>>(&collisionIn(setup).convex));
+  of(std::get_if<ConvexPairOf<3>>(&collisionIn(setup).convex));
 }
 
 /// Impulses need no resolved contact, but disks must not jump.
@@ -91,6 +138,7 @@ void cautionsOfEngineSteps(const Case& setup, Lines& lines) {
 
 Lines cautions(const Case& setup, double volumeFraction) {
   Lines lines = setup.warnings;
+  cautionsOfShapes(setup, lines);
   if (isCollision(setup)) {
     if (collisionIn(setup).margins.empty())
       lines.emplace_back("no [collision.margins]: collide will judge nothing");

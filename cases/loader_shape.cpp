@@ -68,8 +68,9 @@ ShapeOf<D> readShape(Reader in) {
   if (kind.empty())
     in.failMissing(points, D == 2 ? "or sides, box, capsule: what the body is"
                                   : "or box, capsule, cylinder: what the body is");
-  in.check((kind == "sides") == in.has("radius"), in.has("radius") ? "radius" : "sides",
-           "and radius, of the corners, belong together");
+  in.check(kind != "sides" || in.has("radius"), "sides", "needs radius, that of the corners");
+  in.check(kind == "sides" || !in.has("radius"), "radius",
+           "is of the sides of a regular polygon; a {} has none", kind);
   ShapeOf<D> shape;
   shape.rounding = input.rounding;
   if (kind == "box") {

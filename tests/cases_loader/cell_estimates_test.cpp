@@ -1,5 +1,6 @@
 // Estimates of `check` against the trial runs that they were made from (thesis-facts, section 6).
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include "cases/cautions.hpp"
 #include "cases/couette.hpp"
 #include "cases/loader.hpp"
+#include "tests/cases_loader/files.hpp"
 
 namespace crossgrain::test {
 namespace {
@@ -58,6 +60,8 @@ TEST(CellEstimates, MadeUpPacking_FillsTheCell) {
                              &couetteIn(c).cell));
 }
 
+class CautionsOfShapes : public InFolder {};
+
 TEST(Cautions, GasSqueezedDisksFewStepsNothingToJudge) {
   const auto said = [](const Case& c, const char* what) {
     const double fraction = volumeFraction(c);
@@ -82,6 +86,39 @@ TEST(Cautions, GasSqueezedDisksFewStepsNothingToJudge) {
   EXPECT_TRUE(said(c, "no [averaging.endpoints]"));
   c.engines["box2d-impulse"]["dt"] = 0.05;
   EXPECT_TRUE(said(c, "[engines.box2d-impulse] dt = 0.05 s: the wheel's rim moves 0.7 d"));
+}
+
+/// Of shapes in the plane and in space, of assemblies and of collisions.
+TEST_F(CautionsOfShapes, ThinAndTinyBodies_AreNamed) {
+  const auto said = [](const std::string& source) {
+    write("case.toml", "[law]\nnormal = 'rigid'\ne_n = 0.5\nmu = 0.3\n[run]\ndt = 1e-4\n" + source);
+    std::string lines;
+    for (const std::string& line : cautions(loadCase("case.toml").front(), 0.0))
+      lines += line + "\n";
+    return lines;
+  };
+  const auto assembly = [&](int dimension, const std::string& shape) {
+    return said(
+        fmt::format("[case]\nkind = 'assembly'\ndimension = {}\n[assembly]\nduration = 1\n"
+                    "[[assembly.disks]]\nposition = [0, 0{}]\nmass = 1\nshape = {}\n",
+                    dimension, dimension == 3 ? ", 0" : "", shape));
+  };
+  EXPECT_EQ(assembly(2, "{ box = [0.1, 0.001] }"), "");
+  EXPECT_EQ(assembly(3, "{ box = [0.1, 0.001, 0.5] }"), "");
+  for (const auto& thin :
+       {assembly(2, "{ box = [0.1, 1e-12] }"),
+        assembly(2, "{ polygon = [[0, 0], [1, 1], [1, 1.0001]] }"),
+        assembly(3, "{ box = [0.1, 0.1, 1e-12] }"), assembly(3, "{ cylinder = [1e-6, 0.1] }")}) {
+    EXPECT_EQ(thin.rfind("assembly.disks[0].shape is ", 0), 0u) << thin;
+    EXPECT_NE(thin.find("times as thin as long"), std::string::npos) << thin;
+  }
+  EXPECT_NE(assembly(2, "{ box = [1e-12, 1e-12] }").find("the smallest bodies are 1.41421e-12 m"),
+            std::string::npos);
+  const std::string collision = said(
+      "[case]\nkind = 'collision'\n[collision]\nsecond = 'body'\npsi = 1\nvn = 0.1\nmass = 1\n"
+      "orientation = 30\nshape = { box = [0.1, 0.06] }\nsecond_shape = { box = [0.0001, 1] }\n");
+  EXPECT_NE(collision.find("collision.second_shape is 1e+04 times as thin"), std::string::npos)
+      << collision;
 }
 
 }  // namespace

@@ -284,6 +284,17 @@ TEST_F(LoaderErrors, Collision_OfConvexBodies) {
       {convex(box, angle + "\nradius = 0.1"),
        "case.toml:16:10: collision.radius = 0.1: and shape: give one of them"},
       {convex(""), "case.toml:9:1: collision.radius is missing: or shape"},
+      {convex("shape = { box = [0.1, 0.06], radius = 0.1 }", angle),
+       "case.toml:14:39: collision.shape.radius = 0.1: is of the sides of a regular polygon; a box "
+       "has none"},
+      {convex("shape = { sides = 5 }", angle),
+       "case.toml:14:19: collision.shape.sides = 5: needs radius, that of the corners"},
+      {convex("shape = { polygon = [[0, 0], [1, 0], [2, 0], [0, 1]] }", angle),
+       "case.toml:14:21: collision.shape.polygon: is straight at vertex 1, which is no corner: "
+       "leave it out"},
+      {convex("shape = { polygon = [[0, 0], [0.1, 0], [0, 0.1]], rounding = 0.5 }",
+              "orientation = 20"),
+       ""},
       {convex("shape = { polygon = [[0, 0], [1, 0], [0.4, 0.4], [0, 1]] }", angle),
        "case.toml:14:21: collision.shape.polygon: "},
       {convex("shape = { polygon = [[0, 0], [0, 1], [1, 0]] }", angle),

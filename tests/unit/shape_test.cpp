@@ -166,7 +166,8 @@ TEST(ShapeFault, NamesWhatIsNoConvexBody) {
   EXPECT_EQ(fault({{0, 0}, {1, 0}, {1, 0}, {0, 1}}), "has vertices 1 and 2 at one place");
   EXPECT_EQ(fault({{0, 0}, {1, 0}, {2, 0}}), "has no area");
   EXPECT_EQ(fault({{0, 0}, {2, 0}, {1, 0.5}, {2, 2}, {0, 2}}), "is not convex at vertex 2");
-  EXPECT_EQ(fault({{0, 0}, {1, 0}, {2, 0}, {2, 2}}), "is not convex at vertex 1");
+  EXPECT_EQ(fault({{0, 0}, {1, 0}, {2, 0}, {2, 2}}),
+            "is straight at vertex 1, which is no corner: leave it out");
   std::vector<Vec2> star;
   for (int k = 0; k < 5; ++k) star.emplace_back(std::cos(0.8 * pi * k), std::sin(0.8 * pi * k));
   EXPECT_EQ(fault(star), "has an outline that crosses itself");
@@ -177,9 +178,9 @@ TEST(ShapeFault, NamesWhatIsNoConvexBody) {
   EXPECT_EQ(solid({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), "has no volume");
   std::vector<Vec3> inner = boxOf({1, 1, 1}).vertices;
   inner.push_back({0.2, 0.1, 0.0});
-  EXPECT_EQ(solid(inner), "is not convex at vertex 8: it is no corner");
+  EXPECT_EQ(solid(inner), "is not convex, or flat, at vertex 8, which is no corner: leave it out");
   inner.back() = {0.0, 1.0, 1.0};  // on an edge
-  EXPECT_EQ(solid(inner), "is not convex at vertex 8: it is no corner");
+  EXPECT_EQ(solid(inner), "is not convex, or flat, at vertex 8, which is no corner: leave it out");
 }
 
 /// A square of side 1 on a plane, and one above it by a gap.
