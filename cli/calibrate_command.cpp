@@ -22,6 +22,7 @@
 #include "studies/core/study.hpp"
 #include "support/bad_input.hpp"
 #include "support/nearest.hpp"
+#include "support/terminal.hpp"
 
 namespace crossgrain::inline cli {
 namespace {
@@ -339,7 +340,7 @@ int calibrate(const CommandLine& line, const Request& request) {
           fmt::format("{} = {}: must be {}", number.option, *value, number.range.text()));
   refuseContradictions(request);
   if (const auto [rolls, coheres] = resistancesOf(request); rolls || coheres) {
-    fmt::print("{}", fromResistances(line, request));
+    printLines(stdout, fromResistances(line, request));
     return exitPassed;
   }
   const Number* wanted = firstGiven(request, Part::wanted);
@@ -352,9 +353,9 @@ int calibrate(const CommandLine& line, const Request& request) {
         "--kt, --gt), a case file; see crossgrain calibrate --help");
   if (!ofCase && !line.overrides.empty())
     throw BadInput("--set changes a case file, and there is none");
-  fmt::print("{}", ofCase   ? fromCase(line, request)
-                   : wanted ? fromWanted(request)
-                            : fromConstants(request));
+  printLines(stdout, ofCase   ? fromCase(line, request)
+                     : wanted ? fromWanted(request)
+                              : fromConstants(request));
   return exitPassed;
 }
 

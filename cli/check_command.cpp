@@ -195,11 +195,19 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
   reportKeysWithoutUse(cases, "check", line.json ? stderr : stdout);
   printNotes();
   const ScratchFolder scratch;
-  // Its lines would stand beside the one of a mistake where they are not redrawn.
-  Progress progress(line.json || line.run.quiet || options.untimed || ::isatty(STDERR_FILENO) == 0);
+  // Where progress is not redrawn it is one line, and none where a mistake may follow.
+  const bool redrawn = ::isatty(STDERR_FILENO) == 1;
+  const bool quiet = line.json || line.run.quiet || options.untimed;
+  Progress progress(quiet || !redrawn);
+  const auto beforeTiming = [&](std::size_t engines) {
+    constexpr std::size_t few = 4;
+    if (!quiet && !redrawn && engines > few)
+      fmt::print(stderr, "timing steps of {} engines; --no-timing leaves that out\n", engines);
+  };
   json all = json::array();
   for (const Case& setup : cases) {
-    all.push_back(checkedCase(setup, line.run.engines, !options.untimed, scratch.path, progress));
+    all.push_back(checkedCase(setup, line.run.engines, !options.untimed, scratch.path, progress,
+                              beforeTiming));
     all.back()["shared_conventions"] = shared;
     if (line.json) continue;
     printChecked(all.back(), line);
@@ -215,7 +223,7 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
       any |= row["can"] == true && !isMirror;
       if (row.value("failed", false)) {
         failed = true;
-        fmt::print(stderr, "crossgrain: {}\n", row["reason"].get<std::string>());
+        printLines(stderr, fmt::format("crossgrain: {}\n", row["reason"].get<std::string>()));
       }
       const std::string name = row["name"];
       // One that was not named need not be made for such scenes.

@@ -4,6 +4,7 @@
 
 #include "cli/option_groups.hpp"
 #include "studies/flow/import.hpp"
+#include "support/terminal.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -13,7 +14,8 @@ int importFiles(const CommandLine& line, const ImportOptions& options) {
   const Imported done = importSnapshots(line, options);
   fmt::print("{} snapshots of {} disks by {}, t = {:.6g} to {:.6g} s: {}\n", done.snapshots,
              done.disks, done.name, done.from, done.to, options.out);
-  for (const std::string& remark : done.remarks) fmt::print("note: {}\n", remark);
+  for (const std::string& remark : done.remarks)
+    printLines(stdout, fmt::format("note: {}\n", remark));
   return exitPassed;
 }
 

@@ -50,7 +50,7 @@ std::string shortened(const std::string& text) {
 }  // namespace
 
 void printFailure(const std::string& reason) {
-  fmt::print(stderr, "crossgrain: {}\n", shortened(reason));
+  printLines(stderr, fmt::format("crossgrain: {}\n", shortened(reason)));
 }
 
 void printResults(const CommandLine& line, const std::string& text,
@@ -69,7 +69,7 @@ int printOutcome(const CommandLine& line, const Outcome& outcome) {
   for (const std::string& reason : outcome.failures) printFailure(reason);
   const auto print = [&](const std::string& sentence) {
     if (line.json)
-      fmt::print(stderr, "crossgrain: {}\n", sentence);
+      printLines(stderr, fmt::format("crossgrain: {}\n", sentence));
     else
       printText(sentence);
   };

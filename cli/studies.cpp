@@ -28,6 +28,7 @@
 #include "studies/stability/stability.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "support/terminal.hpp"
 
 namespace crossgrain::inline cli {
 
@@ -75,7 +76,7 @@ int runStudy(const Study<Options, Results>& study, const CommandLine& line, Opti
       });
   const std::string paste = terminal.paste && !line.json ? terminal.paste(results) : "";
   if (!paste.empty())
-    fmt::print("{}", paste);
+    printLines(stdout, paste);
   else
     printResults(line, line.json ? "" : terminal.text(results, line.verbose), overview,
                  terminal.timeSpent);

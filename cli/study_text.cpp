@@ -63,13 +63,8 @@ std::string headOf(const EndpointRow& row) {
 
 /// "yade", "0.33", "+0.02 (0.01 to 0.03)", "✓ agree"
 std::array<std::string, 4> cellsOf(const EndpointRow& row) {
-  std::string difference = absentText;
-  if (const auto by = finite(row.difference)) {
-    difference = (*by > 0.0 ? "+" : "") + readable(by);
-    if (finite(row.low) && finite(row.high))
-      difference += fmt::format(" ({} to {})", readable(row.low), readable(row.high));
-  }
-  return {row.b, readablePair(row.value(), row.reference).first, difference,
+  return {row.b, readablePair(row.value(), row.reference).first,
+          readableInterval(row.difference, row.low, row.high, "", Sign::ofAll),
           fmt::format("{} {}", reports::lookOf(row.verdict).mark,
                       row.verdict == Verdict::pass ? "agree" : reports::spaced(row.answer()))};
 }
@@ -164,8 +159,9 @@ std::string basisOf(const CompareResults& results) {
 }
 
 /// "grain  without friction  0.583 of the time per step, 21 of 42 rings changed"
-/// @param places  that a profile is divided into
-std::string effectText(const EffectVariant& variant, const char* places) {
+/// @param places    that a profile is divided into
+/// @param untested  why no profile is tested
+std::string effectText(const EffectVariant& variant, const char* places, const char* untested) {
   const std::string head = fmt::format("{:<16} without {:<22} ", variant.engine, variant.effect);
   if (variant.status != Status::finished)
     return head +
@@ -178,7 +174,7 @@ std::string effectText(const EffectVariant& variant, const char* places) {
     }
   return head + fmt::format("{:.3f} of the time per step, {}\n", variant.timeRatio.value_or(NAN),
                             judged == 0
-                                ? "too few packings to know what changed"
+                                ? std::string(untested)
                                 : fmt::format("{} of {} {} changed", changed, judged, places));
 }
 
@@ -273,7 +269,10 @@ std::string collideText(const CollideResults& results, bool) {
 std::string effectsText(const EffectsResults& results, bool verbose) {
   std::string text = verbose ? describeEffects(results.effects) : "";
   for (const EffectVariant& variant : results.variants)
-    if (variant.isSwitched()) text += effectText(variant, results.region ? "bins" : "rings");
+    if (variant.isSwitched())
+      text += effectText(variant, results.region ? "bins" : "rings",
+                         results.hasOneStart() ? "profiles of one start are not tested"
+                                               : "too few packings to know what changed");
   return text;
 }
 

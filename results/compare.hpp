@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -23,6 +24,13 @@ struct FlowStudy : FlowFrame {
   std::vector<EngineRow> engines;  ///< the reference first
   std::vector<PackingRow> packings;
   std::vector<FlowRun> runs;
+
+  /// Whether it was run again and again from one start: there is no scatter between packings.
+  bool hasOneStart() const {
+    return packings.size() > 1 && std::ranges::all_of(packings, [&](const PackingRow& packing) {
+             return packing.hash == packings.front().hash;
+           });
+  }
 
   void fields(auto& io) {
     FlowFrame::fields(io);

@@ -89,11 +89,8 @@ std::string describeReading(const LockstepRow& row, const LockstepRules& rules) 
   if (row.read == 0) return {};
   std::string words;
   if (row.equivalent)
-    words = fmt::format("ε_eq {}{}, limit {}; ", readable(*row.equivalent),
-                        row.equivalentLow < row.equivalentHigh
-                            ? fmt::format(" ({} to {})", readable(*row.equivalentLow),
-                                          readable(*row.equivalentHigh))
-                            : "",
+    words = fmt::format("ε_eq {}, limit {}; ",
+                        readableInterval(row.equivalent, row.equivalentLow, row.equivalentHigh),
                         readableSetting(rules.sameLaw));
   words += fmt::format("read from {} starts, beyond the limit from {}", row.read, row.beyond);
   if (row.shareHigh && *row.shareHigh < 1.0)

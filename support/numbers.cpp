@@ -135,19 +135,42 @@ std::string readableDifference(std::optional<double> value, std::optional<double
 }
 
 std::string readableInterval(std::optional<double> value, std::optional<double> low,
-                             std::optional<double> high) {
-  if (!finite(value) || !finite(low) || !finite(high) || !(*low < *high))
-    return readableDifference(value, {});
+                             std::optional<double> high, std::string_view unit, Sign sign) {
+  const auto alone = [&] {
+    return (sign == Sign::ofAll ? readableDifference(value, {}) : readable(value)) +
+           std::string(unit);
+  };
+  if (!finite(value)) return absentText;
+  if (!finite(low) || !finite(high) || !(*low < *high)) return alone();
   const double larger = std::max({std::abs(*value), std::abs(*low), std::abs(*high)});
   const int magnitude = exponentOf(larger, 3), shift = plain(magnitude) ? 0 : magnitude;
-  const int decimals =
+  const auto text = [&](double number, int decimals) {
+    return (sign == Sign::ofAll && number > 0.0 ? "+" : "") +
+           fixed(number / std::pow(10.0, shift), decimals);
+  };
+  const int most = mostValueDigits - magnitude + shift;
+  int decimals =
       std::clamp(1 - exponentOf(0.5 * (*high - *low), 2), -magnitude, mostValueDigits - magnitude) +
       shift;
-  const auto signedText = [&](double number) {
-    return (number > 0.0 ? "+" : "") + fixed(number / std::pow(10.0, shift), decimals);
+  const auto meets = [&](double end) {
+    return std::abs(end - *value) > rounding * larger &&
+           text(end, decimals) == text(*value, decimals);
   };
-  return fmt::format("{} ({} to {}){}", signedText(*value), signedText(*low), signedText(*high),
-                     shift == 0 ? "" : timesPowerOfTen(shift));
+  while (decimals < most && (meets(*low) || meets(*high))) ++decimals;
+  if (text(*low, decimals) == text(*high, decimals)) return alone();
+  const std::string ends = fmt::format(" ({} to {})", text(*low, decimals), text(*high, decimals));
+  return shift == 0
+             ? fmt::format("{}{}{}", text(*value, decimals), unit, ends)
+             : fmt::format("{}{}{}{}", text(*value, decimals), ends, timesPowerOfTen(shift), unit);
+}
+
+std::string readableRange(std::optional<double> low, std::optional<double> high) {
+  const auto [from, to] = readablePair(low, high);
+  return from == to ? from : fmt::format("{} to {}", from, to);
+}
+
+std::string withEnds(const std::string& value, const std::string& low, const std::string& high) {
+  return low == high ? value : fmt::format("{} ({} to {})", value, low, high);
 }
 
 std::string readablePercent(double fraction) {

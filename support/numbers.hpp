@@ -43,10 +43,22 @@ std::pair<std::string, std::string> readablePair(std::optional<double> a, std::o
 /// The same with the sign always there, for differences.
 std::string readableDifference(std::optional<double> value, std::optional<double> error);
 
-/// A difference and its interval, all to the second digit of half of that: "−0.0083 (−0.0155 to
-/// −0.0008)", "+437 (+420 to +454)"; without an interval the difference alone.
+enum class Sign { ofAll, ofNegative };
+
+/// A value and its interval, all to the second digit of half of that, and to more where the value
+/// and an end are told apart by more: "−0.0083 (−0.0155 to −0.0008)", "49 margins (46 to 52)".
+/// Without an interval, or where its ends are one number, the value alone.
+/// @param unit  after the value, with the space before it
+/// @param sign  of all: of differences
 std::string readableInterval(std::optional<double> value, std::optional<double> low,
-                             std::optional<double> high);
+                             std::optional<double> high, std::string_view unit = "",
+                             Sign sign = Sign::ofNegative);
+
+/// Two ends with as many digits as tell them apart: "46 to 52"; one number where they are one.
+std::string readableRange(std::optional<double> low, std::optional<double> high);
+
+/// "1.2 ms (1.1 ms to 1.3 ms)" of texts; the value alone where both ends are one text.
+std::string withEnds(const std::string& value, const std::string& low, const std::string& high);
 
 /// A fraction ≥ 0 in per cent, whole or, below one, to its first digit: "40", "0.3".
 std::string readablePercent(double fraction);

@@ -1,6 +1,8 @@
 #include "support/terminal.hpp"
 
+#include <fmt/format.h>
 #include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -63,9 +65,20 @@ std::string wrapped(const std::string& line, std::size_t width, std::size_t hang
 std::string wrappedLines(const std::string& text, std::size_t width) {
   std::string all;
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    all += wrapped(line, width, std::min(line.find_first_not_of(' '), line.size()) + 2) + "\n";
+  for (std::string line; std::getline(lines, line);) {
+    const std::string mark = line.starts_with("# ") ? "# " : "";
+    line.erase(0, mark.size());
+    const std::size_t hang = std::min(line.find_first_not_of(' '), line.size()) + 2;
+    std::istringstream parts(wrapped(line, width - std::min(width, mark.size()), hang) + "\n");
+    for (std::string part; std::getline(parts, part);) all += mark + part + "\n";
+  }
   return all;
+}
+
+void printLines(std::FILE* to, const std::string& text) {
+  const int descriptor = ::fileno(to);
+  fmt::print(to, "{}",
+             ::isatty(descriptor) == 1 ? wrappedLines(text, terminalWidth(descriptor)) : text);
 }
 
 }  // namespace crossgrain::inline support

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -26,7 +27,11 @@ std::string cut(const std::string& line, std::size_t width);
 std::string wrapped(const std::string& line, std::size_t width, std::size_t hang,
                     std::string_view end = "");
 
-/// Each line of a text so, further lines two blanks further in than the first.
+/// Each line of a text so, further lines two blanks further in than the first; of a comment, which
+/// begins with "# ", all do.
 std::string wrappedLines(const std::string& text, std::size_t width);
+
+/// Prints lines, on a terminal wrapped at its width; elsewhere a line stays one.
+void printLines(std::FILE* to, const std::string& text);
 
 }  // namespace crossgrain::inline support

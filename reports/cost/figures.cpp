@@ -464,9 +464,8 @@ Table stepTable(const CostResults& results) {
   for (const StepTime& time : results.steps) {
     const StepFigures figures = stepFigures(results.steps, time);
     const auto bytes = figures.bytes ? std::optional(std::round(*figures.bytes)) : std::nullopt;
-    std::string step = shortDuration(figures.step);
-    if (time.low && time.high)
-      step += fmt::format(" ({} to {})", shortDuration(time.low), shortDuration(time.high));
+    const std::string step =
+        withEnds(shortDuration(figures.step), shortDuration(time.low), shortDuration(time.high));
     table.rows.push_back({{time.engine, bodiesText(time), describeWorkers(time), step,
                            readable(times(figures.perBody, 1e9)), rounded(figures.strong),
                            rounded(figures.weak), readable(figures.ratio), readableCount(bytes),

@@ -62,9 +62,10 @@ std::string budgetOption(double seconds) {
 
 /// "3.2 % (1.4 % to 5.1 %)"
 std::string intervalText(const CostResults& results, double value, double low, double high) {
-  const std::string from = amountText(results, low), to = amountText(results, high);
-  return from == to ? amountText(results, value)
-                    : fmt::format("{} ({} to {})", amountText(results, value), from, to);
+  if (amountText(results, low) == amountText(results, high)) return amountText(results, value);
+  const double scale = results.inMargins ? 1.0 : 100.0;
+  return readableInterval(scale * value, scale * low, scale * high,
+                          results.inMargins ? " margins" : " %");
 }
 
 /// A point's error with its interval, or the reason why it has none.
@@ -116,8 +117,8 @@ std::string tieText(const std::vector<TiedSetting>& ties) {
 /// "1.2 ms (1.1 ms to 1.3 ms)"
 std::string timeText(const CostTime& time) {
   if (!time.time() || !time.timeLow || !time.timeHigh) return readableDuration(time.time());
-  return fmt::format("{} ({} to {})", readableDuration(time.time()), readableDuration(time.timeLow),
-                     readableDuration(time.timeHigh));
+  return withEnds(readableDuration(time.time()), readableDuration(time.timeLow),
+                  readableDuration(time.timeHigh));
 }
 
 /// "the cheapest engine", or that it ties with others.
@@ -195,8 +196,9 @@ std::string asToml(const Advice& one, const CostResults& results) {
   const CostModel* model = modelOf(results, one);
   if (model) text += fmt::format("# {}, {}\n", toString(model->kind), modelText(results, *model));
   if (const CostPoint* point = pointAt(results, one.obstacle); point && !model)
-    text += fmt::format("# {}, {}: {:.2g} to {:.2g} {}{}\n", toString(point->kind), point->measure,
-                        point->low(), point->high(), results.inMargins ? "margins" : "of its scale",
+    text += fmt::format("# {}, {}: {} {}{}\n", toString(point->kind), point->measure,
+                        readableRange(point->low(), point->high()),
+                        results.inMargins ? "margins" : "of its scale",
                         !reached            ? ""
                         : results.inMargins ? " at a smaller step"
                                             : ", which does not decide");

@@ -117,7 +117,7 @@ Figure costFigure(const Variants& variants, const std::string& name) {
       std::string(std::ranges::any_of(variants, &VariantSummary::decidable)
                       ? "filled: significant, open: not. Bars: to the end nearer 0 of the interval "
                         "that this rests on; one that leaves the axis on the left contains 0."
-                      : "open: too few packings for a test. Bars: one standard error.");
+                      : "open: not tested. Bars: one standard error.");
   figure.panels.push_back(costPanel(variants));
   const Range range = rangeOf(variants, fields);
   for (const std::string& field : fields) {

@@ -82,7 +82,7 @@ std::string describeCost(const VariantSummary& variant) {
   if (!variant.saved) return "was not timed";
   const std::string part =
       readable(inPercent(std::abs(*variant.saved)), inPercent(variant.timeRatioError));
-  if (variant.timeRatioError && std::abs(*variant.saved) <= 2.0 * *variant.timeRatioError)
+  if (!variant.changesTime())
     return fmt::format(
         "costs nothing measurable ({} % of a step)",
         readableDifference(inPercent(variant.saved), inPercent(variant.timeRatioError)));
@@ -125,11 +125,12 @@ const char* symbolOf(const FieldChange& change) {
   return change.change > 0.0 ? "▲" : "▼";
 }
 
-Cell fieldCell(const FieldChange* change) {
+Cell fieldCell(const VariantSummary& variant, const std::string& field) {
+  const FieldChange* const change = variant.of(field);
   if (!change) return absentText;
   const bool found = change->detected.value_or(false);
   std::string detail = change->bin;
-  if (!change->detected) detail += "; too few packings";
+  if (!change->detected) detail += fmt::format("; {}", variant.untested());
   if (!found && change->detectableHere)
     detail += fmt::format("; seen from {} %", roughly(100.0 * *change->detectableHere));
   if (const std::string margin = againstMargin(*change); !margin.empty()) detail += "; " + margin;
@@ -143,10 +144,7 @@ Cell endpointChange(const EndpointRow& row) {
   if (row.verdict == Verdict::notMeasured || !finite(row.difference))
     return {absentText, {row.reason}, Verdict::notMeasured};
   const std::string unit = row.unit == "-" || row.unit == "1" ? "" : " " + row.unit;
-  std::string text = readableDifference(row.difference, {}) + unit;
-  if (finite(row.low) && finite(row.high))
-    text += fmt::format(" ({} to {})", readableDifference(row.low, {}),
-                        readableDifference(row.high, {}));
+  std::string text = readableInterval(row.difference, row.low, row.high, unit, Sign::ofAll);
   Names detail = {fmt::format("of {}{}", readable(row.reference), unit)};
   detail.emplace_back(row.verdict == Verdict::pass   ? "shown within the margin"
                       : row.verdict == Verdict::fail ? "shown beyond the margin"
@@ -211,7 +209,7 @@ Table effectTable(const EffectsResults& results, const std::string& engine) {
       row.cells.emplace_back(readable(inPercent(variant.saved), inPercent(variant.timeRatioError)));
       row.cells.emplace_back(readable(times(variant.step, 1e6)));
       row.cells.emplace_back(readableCount(variant.contacts));
-      for (const std::string& field : fields) row.cells.push_back(fieldCell(variant.of(field)));
+      for (const std::string& field : fields) row.cells.push_back(fieldCell(variant, field));
     }
     table.rows.push_back(std::move(row));
   }
@@ -233,18 +231,24 @@ Names effectsNotes(const EffectsResults& results) {
   for (const EngineRow& engine : results.engines)
     if (engine.status == Status::refused)
       notes.push_back(fmt::format("{} refused the scene: {}", engine.name, engine.reason));
-  if (results.packings.size() < 4)
+  const bool oneStart = results.hasOneStart();
+  if (oneStart)
+    notes.emplace_back(
+        "The scene has one start: endpoints are judged by how far they change, changes of profiles "
+        "have no scatter that they could be tested against.");
+  else if (results.packings.size() < 4)
     notes.emplace_back(
         "Fewer than 4 packings: changes cannot be distinguished from the scatter between "
         "packings.");
+  const std::string runs = oneStart
+                               ? fmt::format("One start, run {} times", results.packings.size())
+                               : counted(results.packings.size(), "packing");
   notes.push_back(results.region
-                      ? fmt::format("{}; averaged in each run: {} to {} s.",
-                                    counted(results.packings.size(), "packing"),
+                      ? fmt::format("{}; averaged in each run: {} to {} s.", runs,
                                     readableSetting(results.region->from),
                                     readableSetting(results.region->to))
                       : fmt::format("{}; rotations averaged in each run: {}, after {} of settling.",
-                                    counted(results.packings.size(), "packing"),
-                                    readableSetting(results.averaging.rotations),
+                                    runs, readableSetting(results.averaging.rotations),
                                     readableSetting(results.averaging.settleRotations)));
   std::ranges::copy(results.notes, std::back_inserter(notes));
   return notes;
@@ -252,6 +256,7 @@ Names effectsNotes(const EffectsResults& results) {
 
 std::string barsOf(const EffectsResults& results) {
   const std::size_t packings = results.packings.size();
+  if (results.hasOneStart()) return "of one start, without an error";
   if (packings >= 4)
     return "in brackets the interval that the verdict rests on, paired over packings: it leaves "
            "out 0 exactly where the change is significant";

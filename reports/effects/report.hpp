@@ -44,12 +44,15 @@ struct VariantSummary : EffectVariant {
   std::optional<double> saved;          ///< time saved per step, over the whole step's
   std::optional<double> wholeContacts;  ///< of a step, with everything on
   std::vector<FieldChange> judged;      ///< of the fields that are judged, and have any number
+  bool oneStart = false;                ///< whose profiles have no scatter to be tested against
 
   bool ran() const { return status == Status::finished; }
   bool decidable() const;         ///< enough packings to tell what changes
+  const char* untested() const;   ///< why it is not decidable
   bool changesSomething() const;  ///< a field, or an endpoint beyond its margin
   bool withinMargins() const;     ///< every field and endpoint is shown to be
-  bool costsTime() const;         ///< the time saved exceeds two of its errors
+  bool changesTime() const;       ///< by more than two errors
+  bool costsTime() const;         ///< likewise, and saves it
   /// Null where the field has no number.
   const FieldChange* of(const std::string& field) const;
 };

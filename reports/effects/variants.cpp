@@ -69,9 +69,9 @@ std::optional<FieldChange> changeOf(const ChangedField& field, const char* bin) 
   return change;
 }
 
-VariantSummary summaryOf(const EffectVariant& variant, const EffectVariant* whole,
-                         const char* bin) {
-  VariantSummary summary{variant, {}, {}, {}};
+VariantSummary summaryOf(const EffectVariant& variant, const EffectVariant* whole, const char* bin,
+                         bool oneStart) {
+  VariantSummary summary{variant, {}, {}, {}, oneStart};
   for (auto* number :
        {&summary.timeRatio, &summary.timeRatioError, &summary.step, &summary.contacts})
     *number = finite(*number);
@@ -80,6 +80,8 @@ VariantSummary summaryOf(const EffectVariant& variant, const EffectVariant* whol
   for (const ChangedField& field : variant.changes.fields)
     if (field.judged)
       if (const auto change = changeOf(field, bin)) summary.judged.push_back(*change);
+  if (oneStart)
+    for (FieldChange& change : summary.judged) change.error.reset();
   return summary;
 }
 
@@ -121,7 +123,7 @@ OverviewCell savedCell(const VariantSummary* variant, const std::string& anchor)
   cell.verdict = std::nullopt;
   cell.value = 100.0 * *variant->saved;
   cell.shown = percentOf(*variant->saved);
-  cell.words = variant->costsTime() ? "of a step" : "of a step, within its error";
+  cell.words = variant->changesTime() ? "of a step" : "of a step, within its error";
   return cell;
 }
 
@@ -158,7 +160,7 @@ OverviewCell changedCell(const VariantSummary* variant, const std::string& ancho
   cell.shown = percentOf(most->change);
   cell.words = fieldWords(most->field);
   if (!variant->decidable())
-    cell.words += ", too few packings";
+    cell.words += fmt::format(", {}", variant->untested());
   else if (!variant->changesSomething())
     cell.words += variant->withinMargins() ? ", all within the margins" : "";
   cell.verdict = variant->changesSomething() ? Verdict::modelDifference
@@ -195,8 +197,13 @@ std::string effectsOf(const std::vector<VariantSummary>& all) {
                                 verb(idle.size(), "changes", "change")));
   const bool decidable = std::ranges::any_of(all, &VariantSummary::decidable);
   if (parts.empty())
-    parts.emplace_back(decidable ? "no effect changes anything significantly"
-                                 : "too few packings to know what changes");
+    parts.emplace_back(
+        decidable     ? "no effect changes anything significantly"
+        : all.empty() ? "nothing was switched off"
+        : all.front().oneStart
+            ? "no endpoint changes beyond its margin; one start shows no scatter that "
+              "profiles could be tested against"
+            : "too few packings to know what changes");
   parts.push_back(costliest
                       ? fmt::format("{} costs most, {} % of a step", effectLabel(costliest->effect),
                                     readable(100.0 * *costliest->saved,
@@ -207,6 +214,7 @@ std::string effectsOf(const std::vector<VariantSummary>& all) {
 
 std::string effectsNextStep(const EffectsResults& results, const std::vector<VariantSummary>& all) {
   const bool decidable = std::ranges::any_of(all, &VariantSummary::decidable);
+  if (results.hasOneStart()) return {};
   if (!decidable && !all.empty())
     return fmt::format(
         "Next: at least 4 packings; with {} no change can be distinguished from scatter.",
@@ -227,6 +235,10 @@ bool VariantSummary::decidable() const {
   return std::ranges::any_of(judged, [](const FieldChange& c) { return c.detected.has_value(); });
 }
 
+const char* VariantSummary::untested() const {
+  return oneStart ? "one start" : "too few packings";
+}
+
 bool VariantSummary::changesSomething() const {
   return std::ranges::any_of(judged,
                              [](const FieldChange& c) { return c.detected.value_or(false); }) ||
@@ -239,8 +251,12 @@ bool VariantSummary::withinMargins() const {
          std::ranges::all_of(changes.endpoints, passes);
 }
 
+bool VariantSummary::changesTime() const {
+  return saved && (!timeRatioError || std::abs(*saved) > 2.0 * *timeRatioError);
+}
+
 bool VariantSummary::costsTime() const {
-  return saved && *saved > 0.0 && (!timeRatioError || *saved > 2.0 * *timeRatioError);
+  return changesTime() && *saved > 0.0;
 }
 
 std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
@@ -248,8 +264,8 @@ std::vector<VariantSummary> variantSummaries(const EffectsResults& results,
   std::vector<VariantSummary> summaries;
   for (const EffectVariant& variant : results.variants)
     if (variant.isSwitched() && (engine.empty() || variant.engine == engine))
-      summaries.push_back(
-          summaryOf(variant, wholeVariant(results, variant.engine), binWord(results)));
+      summaries.push_back(summaryOf(variant, wholeVariant(results, variant.engine),
+                                    binWord(results), results.hasOneStart()));
   return summaries;
 }
 

@@ -109,8 +109,8 @@ Table endpointVerdicts(const CompareResults& results, const std::string& a, cons
           {{endpointLabel(name, !results.region), std::move(bar),
             closed ? reference : withHalf(reference, row.reference, row.referenceHalf),
             closed ? value : withHalf(value, row.value(), row.valueHalf),
-            readableInterval(row.difference, row.low, row.high), row.unit == "-" ? "" : row.unit,
-            marginText(row), verdictCell(results, row)},
+            readableInterval(row.difference, row.low, row.high, "", Sign::ofAll),
+            row.unit == "-" ? "" : row.unit, marginText(row), verdictCell(results, row)},
            std::exchange(group, "")});
     }
   }
@@ -242,6 +242,8 @@ void addAgreement(Report& report, const CompareResults& results, const Engines& 
       "packings decide with 90 % chance.",
       100.0 * results.averaging.confidence);
   if (!endpoints.empty()) {
+    if (std::string drift = driftSentence(results, engines); !drift.empty())
+      blocks.push_back(Paragraph{std::move(drift)});
     Table table = endpointVerdicts(results, reference, peers);
     table.note = fmt::format(
         "{} Agree is tested endpoint by endpoint, disagree over all endpoints of a pair: the "

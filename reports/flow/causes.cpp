@@ -96,12 +96,8 @@ std::string takes(double seconds) {
 
 /// "1.2 (0.8 to 1.6)"
 std::string withInterval(const Explained& one, const CausePart& part) {
-  const auto shown = [&](const std::optional<double>& value) {
-    return readable(times(value, one.scale()));
-  };
-  return shown(part.mean) + (part.low < part.high
-                                 ? fmt::format(" ({} to {})", shown(part.low), shown(part.high))
-                                 : "");
+  const auto scaled = [&](const std::optional<double>& value) { return times(value, one.scale()); };
+  return readableInterval(scaled(part.mean), scaled(part.low), scaled(part.high));
 }
 
 Table causesTable(const CompareResults& results) {

@@ -63,12 +63,8 @@ std::string wordOf(const EndpointRow& row) {
 }
 
 std::string describeDistance(const EndpointRow& row) {
-  const auto distance = finite(row.distance), low = finite(row.distanceLow),
-             high = finite(row.distanceHigh);
-  if (!distance) return {};
-  const std::string size = readable(distance) + " margins";
-  if (!low || !high) return size;
-  return fmt::format("{} ({} to {})", size, readable(low), readable(high));
+  if (!finite(row.distance)) return {};
+  return readableInterval(row.distance, row.distanceLow, row.distanceHigh, " margins");
 }
 
 std::string describeNeeds(const EndpointRow& row) {

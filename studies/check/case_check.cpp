@@ -230,7 +230,8 @@ json flowFigures(const Case& setup, double dt) {
 /// @param timed  engines take some steps of a flow, too
 template <int D>
 json checkedIn(const Case& setup, const std::vector<std::string>& names, bool timed,
-               const std::filesystem::path& scratch, Progress& progress) {
+               const std::filesystem::path& scratch, Progress& progress,
+               const std::function<void(std::size_t)>& beforeTiming) {
   const bool couette = cellOf(setup) != nullptr, flows = hasFlow(setup);
   if (!couette) requireStableStep(setup, {});
   const Probe<D> probe = probeOf<D>(setup, timed);
@@ -262,7 +263,9 @@ json checkedIn(const Case& setup, const std::vector<std::string>& names, bool ti
     result[called.contains(effect) ? "effects" : "left_out"].push_back(toString(effect));
   result["engines"] = json::array();
   const std::vector<EngineEntry> entries = flows ? enginesFor(setup, names) : selectEngines(names);
-  progress.begin("asking engines", std::vector<double>(entries.size(), 1.0));
+  if (timed && flows) beforeTiming(entries.size());
+  progress.begin(timed && flows ? "timing engines" : "asking engines",
+                 std::vector<double>(entries.size(), 1.0));
   for (std::size_t k = 0; k < entries.size(); ++k) {
     throwIfInterrupted();
     progress.update(k, entries[k].name, 0.0);
@@ -284,14 +287,16 @@ json checkedIn(const Case& setup, const std::vector<std::string>& names, bool ti
 }  // namespace
 
 json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
-                 const std::filesystem::path& scratch, Progress& progress) {
+                 const std::filesystem::path& scratch, Progress& progress,
+                 const std::function<void(std::size_t)>& beforeTiming) {
   checkEngineSections(setup);
   if (packingFile(setup) && !setup.run.dt)
     throw BadInput(setup.file.string() + ": a packing file needs [run] dt, the time step in s");
   // Refusals of --dry-run and of the command itself: the start of any packing.
   if (hasFlow(setup)) checkPackings(setup, flowPackings(setup), timeStep(setup));
-  return inDimensionOf(
-      setup, [&]<int D>() { return checkedIn<D>(setup, names, timed, scratch, progress); });
+  return inDimensionOf(setup, [&]<int D>() {
+    return checkedIn<D>(setup, names, timed, scratch, progress, beforeTiming);
+  });
 }
 
 }  // namespace crossgrain::inline studies

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -14,11 +15,13 @@ namespace crossgrain::inline studies {
 /// Of a Couette case some steps are timed on every engine, on its first packing where that is in
 /// the cache, else on a made-up one (cautions.hpp): nothing of it is kept.
 /// @param names  of engines, "all" allowed; mirrors that would run along are asked too
-/// @param timed  whether to time steps
+/// @param timed         whether to time steps
+/// @param beforeTiming  called with the number of engines, once nothing is left to refuse
 /// @returns name, variant, kind, disks, wall_disks, dt_s, effects, cautions, engines; of a Couette
 ///          case also cell figures and predictions (docs/methods.md)
 /// @throws BadInput, also for a time step beyond the limit of a case that compare would refuse
 nlohmann::json checkedCase(const Case& setup, const std::vector<std::string>& names, bool timed,
-                           const std::filesystem::path& scratch, Progress& progress);
+                           const std::filesystem::path& scratch, Progress& progress,
+                           const std::function<void(std::size_t)>& beforeTiming);
 
 }  // namespace crossgrain::inline studies

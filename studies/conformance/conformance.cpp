@@ -31,6 +31,7 @@
 #include "support/data_folder.hpp"
 #include "support/input_file.hpp"
 #include "support/interrupt.hpp"
+#include "support/numbers.hpp"
 #include "support/scratch_folder.hpp"
 
 namespace crossgrain::conformance {
@@ -484,7 +485,14 @@ ConformanceResults runConformance(const ConformanceTask& task) {
   settingsFor(Case{}, entry.name, can);  // throws for one of its file that it does not have
 
   Progress progress(task.quiet);
-  progress.begin("conformance of " + entry.name, {2.0, 1.0, 1.0});
+  const bool follows = std::ranges::any_of(
+      names, [](const std::string& name) { return name.starts_with("FollowsItsMirror"); });
+  std::vector<double> weights;  // of the parts that there are
+  if (!checks.empty()) weights.push_back(2.0);
+  if (follows) weights.push_back(1.0);
+  if (wanted("collisions")) weights.push_back(1.0);
+  progress.begin("conformance of " + entry.name, weights);
+  std::size_t part = 0;
   double reported = elapsed();  // [s]
   conformance::CheckReport suite = conformance::runChecks(
       entry, checks, scratch.path,
@@ -497,13 +505,14 @@ ConformanceResults runConformance(const ConformanceTask& task) {
       },
       timeIsUp);
   results.rows = std::move(suite.rows);
-  progress.finish(0, fmt::format("suite: {} checks", results.rows.size()));
+  if (!checks.empty())
+    progress.finish(part++, "suite: " + support::counted(results.rows.size(), "check"));
   const bool alive = results.count(checkBrokeDown) < 3;
-  if (alive) {
+  if (alive && follows) {
     const bool seesTrue = !conformance::basisFailed(checks, results.rows);
     std::ranges::move(lockstepRows(entry, can, scratch.path, seesTrue, wanted, timeIsUp),
                       std::back_inserter(results.rows));
-    progress.finish(1, "lockstep");
+    progress.finish(part++, "lockstep");
   }
   if (alive && wanted("collisions")) {
     if (timeIsUp())
@@ -511,7 +520,7 @@ ConformanceResults runConformance(const ConformanceTask& task) {
           conformance::untriedRow("collisions", "collisions", collisionsProperty));
     else
       std::ranges::move(collisionRows(entry, can, scratch.path), std::back_inserter(results.rows));
-    progress.finish(2, "collisions");
+    progress.finish(part++, "collisions");
   }
   if (results.rows.empty())
     throw BadInput(fmt::format("-k '{}': no check has that in its name", *task.only));

@@ -20,6 +20,7 @@
 #include "studies/core/engine_access.hpp"
 #include "support/interrupt.hpp"
 #include "support/scratch_folder.hpp"
+#include "support/terminal.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -267,7 +268,7 @@ bool shareConventions(const Case& setup, const std::vector<std::string>& engines
                       std::vector<std::string>& overrides) {
   const std::vector<std::string> shared = sharedConventionsOf(setup, engines);
   if (shared.empty()) return false;
-  fmt::print(stderr, "note: {}: {}\n", setup.file.string(), describeShared(shared));
+  printLines(stderr, fmt::format("note: {}: {}\n", setup.file.string(), describeShared(shared)));
   overrides.insert(overrides.end(), shared.begin(), shared.end());
   return true;
 }

@@ -16,6 +16,7 @@
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
 #include "support/interrupt.hpp"
+#include "support/terminal.hpp"
 
 namespace crossgrain::inline studies {
 
@@ -301,7 +302,7 @@ void reportKeysWithoutUse(const Case& setup, std::string_view command, std::FILE
 }
 
 void printNotes() {
-  for (const auto& [to, text] : std::exchange(heldNotes, {})) fmt::print(to, "{}", text);
+  for (const auto& [to, text] : std::exchange(heldNotes, {})) printLines(to, text);
 }
 
 void reportKeysWithoutUse(const std::vector<Case>& cases, std::string_view command, std::FILE* to) {
@@ -376,7 +377,8 @@ Case onlyFlow(const CommandLine& line, const char* command) {
 }
 
 void printWarnings(const Case& setup) {
-  for (const std::string& warning : setup.warnings) fmt::print(stderr, "caution: {}\n", warning);
+  for (const std::string& warning : setup.warnings)
+    printLines(stderr, fmt::format("caution: {}\n", warning));
 }
 
 }  // namespace crossgrain::inline studies

@@ -246,7 +246,7 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   results.advice[0].obstacle = 0;
   results.advice[0].decides = "more packings";
   EXPECT_TRUE(has(costToml(results),
-                  "# collision, psi_f: 0.1 to 0.1 of its scale, which does not decide\n"
+                  "# collision, psi_f: 0.100 of its scale, which does not decide\n"
                   "# what would decide: more packings\n[run]\n"));
   results.advice[0].verdict = Verdict::notMeasured;
   EXPECT_TRUE(has(costToml(results), "not measured far enough; the best so far is t_c/10"));
@@ -254,7 +254,7 @@ TEST(CostToml, AdviceForTheTarget_IsAFragmentWithCommentsAlone) {
   results.advice[0].verdict = Verdict::fail;
   results.advice[0].model = 0;
   EXPECT_TRUE(has(costToml(results),
-                  "# collision, Ψ_f: its limit of small steps is off by 25 % (24 % to 26 %)\n"));
+                  "# collision, Ψ_f: its limit of small steps is off by 25.0 % (24.0 to 26.0)\n"));
   results.advice[0].verdict = Verdict::notMeasured;
   EXPECT_FALSE(has(costToml(results), "[run]"));
   results.target = 0.01;

@@ -88,6 +88,8 @@ TEST(Wrapped, LongLine_IsBrokenWhereItFitsAndHangs) {
   EXPECT_EQ(wrapped("a-long-word b", 5, 1), "a-long-word\n b") << "a word stays whole";
   EXPECT_EQ(wrapped("run --out a", 8, 2, " \\"), "run \\\n  --out \\\n  a");
   EXPECT_EQ(wrappedLines("  one two\nthree\n", 6), "  one\n    two\nthree\n");
+  EXPECT_EQ(wrappedLines("# one two\nkn = 1\n", 7), "# one\n#   two\nkn = 1\n")
+      << "a comment stays one";
 }
 
 TEST(Cut, LongLine_EndsWithAnEllipsis) {

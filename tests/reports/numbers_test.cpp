@@ -49,10 +49,30 @@ TEST(Numbers, Pair_HasDigitsUntilTheTwoDiffer) {
 }
 
 TEST(Numbers, Interval_HasTheDigitsOfItsWidth) {
-  EXPECT_EQ(readableInterval(437.2, 420.4, 454.1), "+437 (+420 to +454)");
-  EXPECT_EQ(readableInterval(-0.00829, -0.0155, -0.000782), "−0.0083 (−0.0155 to −0.0008)");
-  EXPECT_EQ(readableInterval(1e-9, -3e-8, 3.2e-8), "+0.1 (−3.0 to +3.2)×10⁻⁸");
-  EXPECT_EQ(readableInterval(0.25, std::nullopt, std::nullopt), "+0.250");
+  const auto difference = [](double value, std::optional<double> low, std::optional<double> high) {
+    return readableInterval(value, low, high, "", Sign::ofAll);
+  };
+  EXPECT_EQ(difference(437.2, 420.4, 454.1), "+437 (+420 to +454)");
+  EXPECT_EQ(difference(-0.00829, -0.0155, -0.000782), "−0.0083 (−0.0155 to −0.0008)");
+  EXPECT_EQ(difference(1e-9, -3e-8, 3.2e-8), "+0.1 (−3.0 to +3.2)×10⁻⁸");
+  EXPECT_EQ(difference(0.25, std::nullopt, std::nullopt), "+0.250");
+  EXPECT_EQ(readableInterval(48.7, 46.1, 52.2, " margins"), "48.7 margins (46.1 to 52.2)");
+  EXPECT_EQ(readableInterval(4e-8, 1e-8, 8e-8, " %"), "4.0 (1.0 to 8.0)×10⁻⁸ %");
+}
+
+TEST(Numbers, IntervalOfOneNumber_IsThatNumber) {
+  EXPECT_EQ(readableInterval(49.0, 49.0, 49.0, " margins"), "49.0 margins");
+  EXPECT_EQ(readableInterval(49.0, 49.0, 49.0 + 1e-13, " margins"), "49.0 margins");
+  EXPECT_EQ(readableInterval(std::nullopt, 1.0, 2.0, " m"), "–");
+  EXPECT_EQ(readableRange(49.0, 49.0), "49.0");
+  EXPECT_EQ(readableRange(49.02, 49.04), "49.02 to 49.04");
+  EXPECT_EQ(withEnds("1.2 ms", "1.2 ms", "1.2 ms"), "1.2 ms");
+  EXPECT_EQ(withEnds("1.2 ms", "1.1 ms", "1.3 ms"), "1.2 ms (1.1 ms to 1.3 ms)");
+}
+
+TEST(Numbers, Interval_HasDigitsUntilTheValueIsNoEnd) {
+  EXPECT_EQ(readableInterval(2.5, 0.0, 1520.0, " %"), "2 % (0 to 1520)");
+  EXPECT_EQ(readableInterval(0.3, 0.0, 1520.0, " %"), "0.3 % (0.0 to 1520.0)");
 }
 
 TEST(Numbers, Setting_KeepsItsDigits) {

@@ -2,6 +2,7 @@
 
 import json
 import re
+import tomllib
 import unittest
 
 from harness import BAD_INPUT, COUETTE, HARD_SPHERE, HELD, SystemTest, on_terminal, settings
@@ -62,6 +63,47 @@ class Terminal(SystemTest):
             narrow = ESCAPE.sub("", drawn(columns)).partition("report: ")[0]
             self.assertLessEqual(max(map(len, narrow.splitlines())), columns)
             self.assertEqual(narrow, self.run_program(*command, env={"COLUMNS": str(columns)}).stdout.partition("report: ")[0])
+
+
+class Lines(SystemTest):
+    """On a terminal no line is wider; a file or a pipe gets each refusal, note and comment in one line."""
+
+    def assert_wraps(self, stream, command, start):
+        done = self.run_program(*command)
+        whole = next(line for line in getattr(done, stream).splitlines() if line.startswith(start))
+        self.assertGreater(len(whole), 80)
+        _, drawn = on_terminal(80, stream, command)
+        lines = drawn.replace("\r\n", "\n").splitlines()
+        self.assertLessEqual(max(map(len, lines)), 80, drawn)
+        first = next(k for k, line in enumerate(lines) if line.startswith(start))
+        comment = "# " if start.startswith("#") else ""
+        told = [line for line in lines[first:] if line.startswith(comment)]
+        self.assertIn(" ".join(whole.split()), " ".join(" ".join(line.removeprefix(comment) for line in told).join([comment, ""]).split()))
+
+    def test_refusals(self):
+        self.assert_wraps("stderr", ["calibrate", "--en", "0.9", "--kn", "1", "--gn", "0.1", COUETTE], "crossgrain: ")
+        self.assert_wraps("stderr", ["compare", COUETTE, "--engines", "nobody", "--out", self.out], "crossgrain: ")
+
+    def test_comments(self):
+        command = ["calibrate", "--en", "0.9", "--et", "0.8", "--tc", "1e-3", "--mass", "1e-3"]
+        _, drawn = on_terminal(60, "stdout", command)
+        for line in drawn.splitlines():
+            self.assertLessEqual(len(line), 60)
+        plain = self.run_program(*command).stdout
+        self.assertEqual(tomllib.loads(plain), tomllib.loads(drawn.replace("\r\n", "\n")))
+
+    def test_many_engines_are_timed_with_a_line_before(self):
+        done = self.run_program("check", COUETTE, "--engines", "all")
+        self.assertRegex(done.stderr, r"(?m)^timing steps of \d+ engines; --no-timing leaves that out$")
+        for fewer in (["--no-timing"], ["--quiet"], ["--json"], ["--engines", "grain"]):
+            words = ["check", COUETTE, *(fewer if "--engines" in fewer else ["--engines", "grain,box2d-penalty", *fewer])]
+            self.assertEqual("", self.run_program(*words).stderr, fewer)
+
+    def test_parts_that_are_not_asked_for_are_not_counted(self):
+        done = self.run_program("conformance", "grain", "-k", "FliesStraight")
+        self.assertEqual(["1/1"], re.findall(r"(?m)^\[(\S+)\]", done.stderr), done.stderr)
+        self.assertIn("suite: 1 check", done.stderr)
+        self.assertNotIn("lockstep", done.stderr)
 
 
 class Summaries(SystemTest):
