@@ -352,7 +352,7 @@ Table makeTable(int dimension, bool rings) {
   t.add("fabric_trace", "fabric", "tr F", "1", "Σ w V C / V_bin", Needs::contacts, [](Bin b) { return trace(fabricTensor(b)); });
   t.add("fabric_deviator", "fabric", "dev F", "1", "F_max − F_min of F = Σ w V Σ_c n⊗n / V_bin", Needs::contacts, [](Bin b) { return deviator(fabricTensor(b)); });
   t.addTensor<fabricTensor>("fabric", none, "", "1", "Σ w V Σ_c n_{0} n_{1} / V_bin", Needs::contacts);
-  t.add("coordination", plane ? "contacts per disk" : "contacts per sphere", "C", "1", "Σ w V C / Σ w V", Needs::contacts, [](Bin b) { return b.sum(Moment::contacts) / b.sum(volume); });
+  t.add("coordination", "contacts per particle", "C", "1", "Σ w V C / Σ w V", Needs::contacts, [](Bin b) { return b.sum(Moment::contacts) / b.sum(volume); });
   t.add("density", "density", "ρ", "kg/m³", "Σ w m / V_bin", kinematics, [](Bin b) { return b.perVolume(mass); });
   if (plane) t.add("fabric_angle", "", "", "rad", "major axis of F, from {0} towards {1}", Needs::contacts, [](Bin b) { return axis(fabricTensor(b)); });
   t.add("stress_trace", "", "", "N/m²", "tr σ of contacts", Needs::contacts, [](Bin b) { return trace(stressTensor(b)); });
@@ -400,7 +400,7 @@ Table makeTable(int dimension, bool rings) {
   t.add("dissipation", "dissipation", "", "W/m³", "Σ w Σ_c P_c / V_bin, P_c the power that a contact turns into heat, to each of two bodies half", Needs::dissipation, [](Bin b) { return b.perVolume(heat); });
   t.add("granular_temperature", "granular temperature", "T", "m²/s²", "Σ w m |v − u|² / D Σ w m in D dimensions", kinematics, [](Bin b) { return trace(fluctuationStress(b)) / (b.dimension() * b.perVolume(mass)); });
   t.add("pressure", "pressure", "p", "N/m²", "tr of stress and fluctuation stress, over D", Needs::contacts, [](Bin b) { return trace(stressTensor(b) + fluctuationStress(b)) / static_cast<double>(b.dimension()); });
-  t.add("coordination_without_rattlers", plane ? "contacts per disk that is held" : "contacts per sphere that is held", "C*", "1", "Σ w V C / Σ w V over bodies with C > D", Needs::contacts, [](Bin b) { return b.sum(heldContacts) / b.sum(heldVolume); });
+  t.add("coordination_without_rattlers", "contacts per particle that is held", "C*", "1", "Σ w V C / Σ w V over bodies with C > D", Needs::contacts, [](Bin b) { return b.sum(heldContacts) / b.sum(heldVolume); });
   addVelocities<velocityByVolume>(t, rings, plane, "_by_volume", "Σ w V v_{0} / Σ w V");
   if (!plane) {
     t.add("contact_density", "", "", "1/m³", "Σ_c w / V_bin", Needs::contacts, [](Bin b) { return b.perVolume(branches); });

@@ -74,6 +74,10 @@ Drawing stripDrawing(const std::vector<ScenePicture>& pictures, double fastest);
 /// The speed that 98 % of the picture's disks are below [m/s]; 0 where no speed is known.
 double fastestOf(const ScenePicture& picture);
 
+/// Speed that takes the smallest body a hundredth of its diameter in the time since the start: what
+/// is slower is at rest, and its speed is the engine's noise [m/s].
+double restingSpeed(const ScenePicture& picture);
+
 /// Disks coloured by where they started, sectors of angle crossed with bands of radius, so that
 /// shear bends the sectors. @param inner  radius of the wheel  @param diameter  half of a band; 0:
 /// not known

@@ -28,7 +28,7 @@ constexpr std::array headLabels = {
     Label{"wheel_slip", "slip at the wheel, share of Ω", ""},
     Label{"shear_share", "shear among the disks, share of Ω", ""},
     Label{"dt_over_tc", "time step / contact time", "dt/t_c"},
-    Label{"coordination", "contacts per disk", "C"},
+    Label{"coordination", "contacts per particle", "C"},
 };
 
 /// null where there is no such field, or none that people write in another way
@@ -166,17 +166,6 @@ std::string listedShortly(const Names& names, std::size_t most) {
   Names few(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(most));
   few.push_back(fmt::format("{} more", names.size() - most));
   return listed(few);
-}
-
-std::string ofBodies(std::string text) {
-  for (const auto& [round, any] : {std::pair("disks", "bodies"),
-                                   {"Disks", "Bodies"},
-                                   {"spheres", "bodies"},
-                                   {"disk", "body"},
-                                   {"sphere", "body"}})
-    for (std::size_t at = 0; (at = text.find(round, at)) != text.npos;)
-      text.replace(at, std::string_view(round).size(), any);
-  return text;
 }
 
 std::string capitalised(std::string text) {

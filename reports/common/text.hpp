@@ -54,9 +54,6 @@ std::string allOf(std::size_t count, std::string_view noun);
 
 using support::counted;
 
-/// Words about disks or spheres as ones about bodies of any shape: "contacts per body".
-std::string ofBodies(std::string text);
-
 /// The first letter, of ASCII, as a capital one.
 std::string capitalised(std::string text);
 

@@ -87,18 +87,22 @@ std::string instantOf(const CompareResults& results, const Engines& engines) {
 /// How pictures of scenes are to be read.
 std::string sceneWords(const CompareResults& results, const ScenePicture& picture, double fastest,
                        const std::string& instant) {
+  const std::string speed = readable(fastest) + " m/s";
   std::string text = fmt::format(
       "The first packing {}, coloured by {}.", instant,
-      fastest > 0.0
-          ? fmt::format("speed, from 0 (dark) to {} m/s and more (yellow)", readable(fastest))
-          : std::string("size"));
+      fastest == 0.0 ? "size"
+      : fastest > restingSpeed(picture)
+          ? fmt::format("speed, from 0 (dark) to {} and more (yellow)", speed)
+          : fmt::format("speed: all are at rest (dark), below {}, which takes the smallest a "
+                        "hundredth of its diameter in the time since the start",
+                        speed));
   const double cut = picture.cut.value_or(0.0);
   // A place that is less than a hundredth of a body from 0 is 0.
   const std::string place =
       readable(std::abs(cut) < 0.01 * at(picture.radius, 0).value_or(0.0) ? 0.0 : cut);
   if (picture.depth)
     text += fmt::format(
-        " Seen along y, x to the right and z upward: spheres in front of the plane y = {} m are "
+        " Seen along y, x to the right and z upward: particles in front of the plane y = {} m are "
         "left out.",
         place);
   else if (picture.cut || (results.region && !results.region->z.empty()))
@@ -190,7 +194,10 @@ Names compareNotes(const CompareResults& results, const Engines& engines) {
   if (results.endpoints.looks.taken > 0) notes.push_back(describe(results.endpoints.looks));
   notes.push_back(ratesInWords(results));
   if (results.lockstep) notes.push_back("Lockstep: " + leadOf(*results.lockstep));
-  std::ranges::move(stateSentences(results, engines), std::back_inserter(notes));
+  for (std::string& state : stateSentences(results, engines))
+    // Beside verdicts it is no note.
+    if (results.endpoints.rows.empty() || state != driftSentence(results, engines))
+      notes.push_back(std::move(state));
   for (const EngineRuns& engine : engines) notes.push_back(troubleInWords(engine));
   const auto isPaired = [](const EndpointRow& row) { return !row.unpaired; };
   if (results.packings.size() < 4 && std::ranges::all_of(results.endpoints.rows, isPaired) &&
@@ -232,9 +239,10 @@ void addProfiles(Report& report, const CompareResults& results, const Engines& e
         std::move(checks), std::move(numbers)};
   if (Drawings distributions = drawings("distribution_"); !distributions.names.empty())
     report.section("distributions", "Distributions").blocks = {
-        Paragraph{fmt::format("Of single {} and contacts over all snapshots, a mean over packings "
-                              "where there are several. {}",
-                              anyConvex(engines) ? "bodies" : "disks", bars)},
+        Paragraph{
+            fmt::format("Of single particles and contacts over all snapshots, a mean over packings "
+                        "where there are several. {}",
+                        bars)},
         std::move(distributions)};
 }
 

@@ -97,13 +97,6 @@ Engines engineRuns(const CompareResults& results) {
   return engines;
 }
 
-bool anyConvex(const Engines& engines) {
-  return std::ranges::any_of(engines, [](const EngineRuns& engine) {
-    return std::ranges::any_of(
-        engine.runs, [](const FlowRun* run) { return run->picture && run->picture->outlines; });
-  });
-}
-
 Curve curveOf(const EngineRuns& engine, std::vector<Point> points, double width) {
   const std::string name = engine.standsFor.empty()
                                ? engine.name

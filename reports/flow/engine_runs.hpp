@@ -47,9 +47,6 @@ Engines engineRuns(const FlowStudy& study, const std::vector<CouetteEnsemble>& e
 /// The same with `isSingle`, `surrogate` and `standsFor`.
 Engines engineRuns(const CompareResults& results);
 
-/// Whether one of them drew convex bodies.
-bool anyConvex(const Engines& engines);
-
 /// Those that isIt.
 Engines only(const Engines& engines, const auto& isIt) {
   Engines some;

@@ -137,16 +137,15 @@ std::map<std::string, Answers> answersByEngine(const std::vector<EngineDrift>& s
 
 void addSteadiness(Names& sentences, const CompareResults& results, const Engines& engines) {
   const auto answers = answersByEngine(results.steadiness);
-  Names drifts, none, open;
+  Names none, open;
   std::optional<double> largest;
   std::string series;
   for (const EngineRuns& engine : engines) {
     const auto found = answers.find(engine.name);
     if (found == answers.end()) continue;
     const Answers& here = found->second;
-    if (!here.drifts.empty()) {
-      drifts.push_back(fmt::format("on {} {}", engine.name, fmt::join(here.drifts, ", ")));
-    } else if (here.seenNone && here.excluded) {
+    if (!here.drifts.empty()) continue;
+    if (here.seenNone && here.excluded) {
       none.push_back(
           fmt::format("{} (down to {} %)", engine.name, readablePercent(*here.excluded)));
     } else {
@@ -157,9 +156,6 @@ void addSteadiness(Names& sentences, const CompareResults& results, const Engine
       }
     }
   }
-  if (!drifts.empty())
-    sentences.push_back(fmt::format("Not steady: {}, of the mean, over the averaged time.",
-                                    fmt::join(drifts, "; ")));
   if (!none.empty())
     sentences.push_back(
         fmt::format("No drift seen over the averaged time: {}.", fmt::join(none, ", ")));
@@ -317,14 +313,11 @@ TableRow headRow(const std::string& name, const Engines& engines) {
   for (const EngineRuns& engine : engines)
     if (const HeadNumber* number = headOf(engine, name); number && unit.empty())
       unit = number->unit;
-  const std::string label = headLabel(name);
-  return tableRow(anyConvex(engines) ? ofBodies(label) : label, unit, engines,
-                  [&name](const EngineRuns& engine) {
-                    const HeadNumber* number = headOf(engine, name);
-                    if (!number) return std::string(absentText);
-                    return readable(number->value, number->standardError) +
-                           (engine.isSingle ? " (one run)" : "");
-                  });
+  return tableRow(headLabel(name), unit, engines, [&name](const EngineRuns& engine) {
+    const HeadNumber* number = headOf(engine, name);
+    if (!number) return std::string(absentText);
+    return readable(number->value, number->standardError) + (engine.isSingle ? " (one run)" : "");
+  });
 }
 
 /// Counters that engines keep of their own, summed over finished runs.
@@ -463,10 +456,24 @@ std::string averagedRotations(const FlowAveraging& averaging) {
   return words;
 }
 
+std::string driftSentence(const CompareResults& results, const Engines& engines) {
+  const auto answers = answersByEngine(results.steadiness);
+  Names drifts;
+  for (const EngineRuns& engine : engines)
+    if (const auto found = answers.find(engine.name);
+        found != answers.end() && !found->second.drifts.empty())
+      drifts.push_back(fmt::format("on {} {}", engine.name, fmt::join(found->second.drifts, ", ")));
+  return drifts.empty() ? ""
+                        : fmt::format("Not steady: {}, of the mean, over the averaged time.",
+                                      fmt::join(drifts, "; "));
+}
+
 Names stateSentences(const CompareResults& results, const Engines& engines) {
   Names sentences;
   addRegimes(sentences, engines);
   if (!engines.empty()) addPairs(sentences, results, referenceOf(results));
+  if (std::string drift = driftSentence(results, engines); !drift.empty())
+    sentences.push_back(std::move(drift));
   addSteadiness(sentences, results, engines);
   return sentences;
 }

@@ -368,6 +368,8 @@ OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engin
   cell.value = static_cast<double>(failed);
   cell.shown = fmt::format("{} of {}", failed, engine.runs.size());
   cell.verdict = failed > 0 ? Verdict::fail : Verdict::pass;
+  if (engine.isSingle && !engine.surrogate.empty())
+    cell.words = "the packings are run by " + engine.surrogate;
   if (const std::size_t endpoints = endpointsWithoutValue(results, engine.name);
       failed == 0 && endpoints > 0) {
     cell.verdict = Verdict::borderline;

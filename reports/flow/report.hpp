@@ -143,6 +143,10 @@ std::string averagedRotations(const FlowAveraging& averaging);
 /// where it is undecided.
 Names stateSentences(const CompareResults& results, const Engines& engines);
 
+/// "Not steady: on yade outer pressure falls by 40 ± 8 %, …": of all engines; empty where none is
+/// seen to drift.
+std::string driftSentence(const CompareResults& results, const Engines& engines);
+
 /// Tables: regimes by packing and engine; pairs whose regimes differ; drifts by series and engine.
 void addStates(Blocks& blocks, const CompareResults& results, const Engines& engines);
 

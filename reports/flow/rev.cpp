@@ -308,11 +308,11 @@ Report reportOf(const RevResults& results) {
     if (Figure figure = fieldFigure(results, field); !figure.panels.empty())
       report.figures.push_back(std::move(figure));
   report.section("figures", fmt::format("Fields against {} width", words.bin)).blocks = {
-      Paragraph{fmt::format("A {0} of width {1} about each of a few {2}, under every weight. "
-                            "Narrow {0}s show the {3} themselves, each weight in its own way; what "
-                            "does not depend on the weight can be taken as a field.",
-                            words.bin, words.width, rings ? "radii" : "places",
-                            results.averaging.lineWidth ? "disks" : "spheres")},
+      Paragraph{
+          fmt::format("A {0} of width {1} about each of a few {2}, under every weight. "
+                      "Narrow {0}s show the particles themselves, each weight in its own way; what "
+                      "does not depend on the weight can be taken as a field.",
+                      words.bin, words.width, rings ? "radii" : "places")},
       drawingsOf(report.figures, "rev_")};
   report.section("meet", "Where weights meet").blocks = {
       Paragraph{fmt::format("The {} width {}/d at which a weight comes closest to slicing, next to "

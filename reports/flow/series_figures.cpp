@@ -24,11 +24,11 @@ const SeriesPlot seriesPlots[] = {
     {"outer_pressure", "Pressure on the outer wall", "pressure [N/m^{2}]"},
     {"shear_share", "Shear among the disks, share of the wheel's rotation (below 0.1: blocked)",
      "shear among the disks / Ω"},
-    {"coordination", "Contacts per disk", "contacts per disk"},
+    {"coordination", "Contacts per particle", "contacts per particle"},
     {"kinetic_energy", "Kinetic energy", "kinetic energy [J]"},
-    {"disks", "Disks in the averaged part", "disks"},
-    {"top", "Highest point of the disks", "height [m]"},
-    {"heap_slope", "Slope of the triangle with the disks' moments", "slope"},
+    {"disks", "Particles in the averaged part", "particles"},
+    {"top", "Highest point of the particles", "height [m]"},
+    {"heap_slope", "Slope of the triangle with the particles' moments", "slope"},
 };
 
 constexpr std::size_t shownPoints = 80;
@@ -363,12 +363,12 @@ std::vector<Figure> distributionFigures(const FlowFrame& frame, const Engines& e
                "outer ring (Lätzel 2003, Fig. 6.6). Thin line: no preferred direction; black "
                "curve: a constant and sines of 2α, 4α, 6α fitted to the first engine's.",
                directionPanels(frame.rings, engines)),
-      figureOf(
-          "contacts", "Distributions of contact forces and numbers",
-          "Normal and tangential forces of all contacts over their means, and contacts per disk.",
-          {densityPanel(engines, "normal_force", {}, "f_{n} / ⟨f_{n}⟩", true),
-           densityPanel(engines, "tangential_force", {}, "|f_{t}| / ⟨|f_{t}|⟩", true),
-           densityPanel(engines, "coordination", {}, "contacts per disk", false)})};
+      figureOf("contacts", "Distributions of contact forces and numbers",
+               "Normal and tangential forces of all contacts over their means, and contacts per "
+               "particle.",
+               {densityPanel(engines, "normal_force", {}, "f_{n} / ⟨f_{n}⟩", true),
+                densityPanel(engines, "tangential_force", {}, "|f_{t}| / ⟨|f_{t}|⟩", true),
+                densityPanel(engines, "coordination", {}, "contacts per particle", false)})};
   std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
   return figures;
 }
@@ -398,11 +398,6 @@ std::vector<Figure> compareFigures(const CompareResults& results) {
                         results, only(engines, std::not_fn(std::mem_fn(&EngineRuns::isSingle)))),
                     profileCausesFigures(results)})
     std::ranges::move(more, std::back_inserter(figures));
-  if (anyConvex(engines))
-    for (Figure& figure : figures) {
-      for (std::string* const text : {&figure.title, &figure.caption}) *text = ofBodies(*text);
-      for (Panel& panel : figure.panels) panel.yLabel = ofBodies(panel.yLabel);
-    }
   return figures;
 }
 
@@ -432,21 +427,18 @@ std::vector<Picture> comparePictures(const CompareResults& results) {
     const ScenePicture* picture = firstPicture(engine);
     if (!picture || picture->x.empty()) continue;
     const std::string word = fmt::format("{}_{}", scenes.size() + 1, fileWord(engine.name));
-    const auto titled = [&](const std::string& words) {
-      return engine.name + (picture->outlines ? ofBodies(words) : words);
-    };
     scenes.push_back({"scene_" + word, engine.name,
-                      titled(picture->depth ? ": spheres behind a cut" : ": disks"),
+                      engine.name + (picture->depth ? ": particles behind a cut" : ": particles"),
                       stateWords(engine), Picture::Shows::scene, sceneDrawing(*picture, fastest)});
     if (!results.region)
       origins.push_back(
-          {"origins_" + word, engine.name, titled(": disks coloured by where they started"), "",
-           Picture::Shows::origins,
+          {"origins_" + word, engine.name, engine.name + ": disks coloured by where they started",
+           "", Picture::Shows::origins,
            originsDrawing(*picture, results.cell.innerRadius, results.cell.diameter)});
     const auto own = widestForce(*picture);
     if (!own) continue;
     if (!widest) widest = own;
-    forces.push_back({"forces_" + word, engine.name, titled(": forces between disks"),
+    forces.push_back({"forces_" + word, engine.name, engine.name + ": forces between particles",
                       forceWords(countForces(*picture, *widest), *widest), Picture::Shows::forces,
                       forcesDrawing(*picture, *widest, 0.75)});
   }

@@ -313,7 +313,12 @@ double fastestOf(const ScenePicture& picture) {
   const auto place =
       static_cast<std::ptrdiff_t>(std::ceil(0.98 * static_cast<double>(speeds.size() - 1)));
   std::ranges::nth_element(speeds, speeds.begin() + place);
-  return speeds[static_cast<std::size_t>(place)];
+  return std::max(speeds[static_cast<std::size_t>(place)], restingSpeed(picture));
+}
+
+double restingSpeed(const ScenePicture& picture) {
+  if (picture.radius.empty() || !(picture.time > 0.0)) return 0.0;
+  return 0.01 * 2.0 * std::ranges::min(picture.radius) / picture.time;
 }
 
 Drawing sceneDrawing(const ScenePicture& picture, double fastest) {
@@ -323,10 +328,12 @@ Drawing sceneDrawing(const ScenePicture& picture, double fastest) {
     low = std::min(low, disk.radius);
     high = std::max(high, disk.radius);
   }
+  const double resting = restingSpeed(picture);
   for (std::size_t k = 0; k < disks.size(); ++k) {
     const auto speed = picture.speed ? at(*picture.speed, k) : std::nullopt;
     if (fastest > 0.0)
-      disks[k].colour = speed ? shadeOf(std::sqrt(*speed / fastest)) : plainColour;
+      disks[k].colour =
+          speed ? shadeOf(*speed > resting ? std::sqrt(*speed / fastest) : 0.0) : plainColour;
     else
       disks[k].colour = shadeOf(high > low ? (disks[k].radius - low) / (high - low) : 0.5);
   }

@@ -38,12 +38,12 @@ const Family families[] = {
     {"momentum",
      "Are momentum and angular momentum kept?",
      {"momentum_drift", "angular_momentum_drift"}},
-    {"bounce", "Do disks rebound as theory says?", {"restitution_error"}},
+    {"bounce", "Do bodies rebound as theory says?", {"restitution_error"}},
     {"passing through",
-     "Do disks go through each other or through walls?",
+     "Do bodies go through each other or through walls?",
      {"max_overlap", "tunnelled", "escaped"}},
     {"rest",
-     "Do disks at rest stay at rest?",
+     "Do bodies at rest stay at rest?",
      {"kinetic_at_rest", "creep", "lean", "fallen", "pile_angle_change", "time_to_rest"}},
     {"cycles", "Do repeated loads come back to where they were?", {"ratchet"}},
     {"time step", "How near to theory is the largest stable time step?", {"step_limit"}},
@@ -53,7 +53,7 @@ const Family families[] = {
     {"turned", "Does a turned scene do the same, turned?", {"turned"}, true},
     {"mirrored", "Does a mirrored scene do the same, mirrored?", {"mirrored"}, true},
     {"other units", "Does a scene in other units do the same?", {"rescaled"}, true},
-    {"renumbered", "Do disks do the same under other numbers?", {"renumbered"}, true},
+    {"renumbered", "Do bodies do the same under other numbers?", {"renumbered"}, true},
     {"restarted", "Does a run restarted from a checkpoint go on the same?", {"restarted"}, true},
     {"in one go", "Does a run without snapshots do the same?", {"split"}, true}};
 
@@ -284,11 +284,18 @@ std::string shownUnit(const std::string& unit) {
   return unit == "-" ? "" : unit;
 }
 
+/// Empty where the limits are one: nothing is degraded.
+template <typename Limits>
+std::string milderLimit(const Limits& limits) {
+  return limits.degradedLimit > limits.limit ? readableSetting(finite(limits.degradedLimit)) : "";
+}
+
 std::string limitsOf(const HardCase& variant) {
   if (!std::isfinite(variant.limit)) return "of each run";
   const std::string unit = shownUnit(variant.unit);
-  return fmt::format("{}{}{}, degraded up to {}", readableSetting(finite(variant.limit)),
-                     unit.empty() ? "" : " ", unit, readableSetting(finite(variant.degradedLimit)));
+  const std::string limit = readableSetting(finite(variant.limit)), milder = milderLimit(variant);
+  return fmt::format("{}{}{}{}", limit, unit.empty() ? "" : " ", unit,
+                     milder.empty() ? "" : ", degraded up to " + milder);
 }
 
 /// "energy drift: … [J]. Limit 0.1 J, degraded up to 0.2 J: why."
@@ -304,7 +311,7 @@ Table variantTable(const StabilityResults& results, const HardGroup& group) {
     const bool other = variant->measure != group.variants.front()->measure;
     TableRow row{{{variant->variant, {other ? spaced(variant->measure) : ""}},
                   readableSetting(finite(variant->limit)),
-                  readableSetting(finite(variant->degradedLimit))}};
+                  milderLimit(*variant)}};
     for (const EngineRow& engine : results.engines)
       row.cells.push_back(runCell(runOf(results, engine.name, *variant)));
     table.rows.push_back(std::move(row));
@@ -360,7 +367,7 @@ Table scoreTable(const StabilityResults& results) {
                            spaced(run.measure),
                            valueOf(run),
                            readableSetting(finite(run.limit)),
-                           readableSetting(finite(run.degradedLimit)),
+                           milderLimit(run),
                            shownUnit(run.unit),
                            run.step ? readableCount(stepOf(run)) : "",
                            shortReason(run)}});

@@ -104,7 +104,7 @@ std::vector<CaseTransform> caseTransforms(std::size_t disks, int dimension) {
           {"rescaled", "times by 2¹⁰", rescaled, inUnitsOf({.time = transformSlower})},
           {"renumbered",
            "renumbered",
-           "No disk is another for its number.",
+           "No body is another for its number.",
            {.order = shuffledOrder(disks, transformSeed)}},
           {"restarted",
            "restarted",
@@ -352,7 +352,7 @@ class Trial {
       disk = off.disk;
     }
     row.verdict = worst > 1.0 ? Verdict::fail : Verdict::pass;
-    row.reason = worst > 1.0 ? fmt::format("disk {} is where it should not be", disk)
+    row.reason = worst > 1.0 ? fmt::format("body {} is where it should not be", disk)
                  : bits      ? "the same to the bit"
                              : "";
     if (blind_ < steps_.size())
@@ -398,7 +398,7 @@ std::vector<HardCase> transformRows(const Case& setup) {
   std::vector<HardCase> rows;
   for (const CaseTransform& transform : caseTransforms(0, setup.dimension))
     rows.push_back({setup.name, variantOf(setup, transform), setup.file.string(), transform.must,
-                    transform.measure, "farthest a disk is from where the case itself has it", "d",
+                    transform.measure, "farthest a body is from where the case itself has it", "d",
                     none, none,
                     fmt::format("a run's limit is what rounding may do to it: 1 + n times the "
                                 "farthest of {} runs whose start is nudged by a rounding, after "

@@ -465,6 +465,9 @@ TEST(ProfileFigures, SingleRunBesideMeans_IsDrawnByItselfAndItsMirrorIsNamed) {
   EXPECT_EQ(namesIn("overview"), means);
   EXPECT_EQ(namesIn("profile_volume_fraction"), means);
   EXPECT_EQ(namesIn("single_runs"), (std::vector<std::string>{"theirs", "mirror"}));
+  EXPECT_EQ(rowNamed(compareOverview(results), "theirs").cells.back().words,
+            "the packings are run by mirror");
+  EXPECT_EQ(rowNamed(compareOverview(results), "ours").cells.back().words, "");
   EXPECT_TRUE(has(describeBars(engines),
                   "Mirrors stand for engines that are evaluated through "
                   "them: mirror of theirs. Single runs of theirs are not"))

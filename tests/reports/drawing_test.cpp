@@ -208,6 +208,28 @@ TEST(Pictures, Scene_FillsItsFrameAndBallsCoverThoseBehind) {
   EXPECT_NE(toSvg(deep, 100, "").find("<radialGradient"), std::string::npos);
 }
 
+/// 0.01 · 2 m in 10 s: what is slower has not moved, and its speed has no colours of its own.
+TEST(Pictures, BodiesAtRest_AreDark) {
+  ScenePicture picture;
+  picture.radius = {1.0, 1.0};
+  picture.x = {0.0, 5.0};
+  picture.y = {0.0, 0.0};
+  picture.speed = {0.0, 1.9e-3};
+  picture.time = 10.0;
+  EXPECT_DOUBLE_EQ(restingSpeed(picture), 2e-3);
+  EXPECT_DOUBLE_EQ(fastestOf(picture), 2e-3);
+  const auto isBright = [&] {
+    return toSvg(sceneDrawing(picture, fastestOf(picture)), 100, "").find("#fde725") !=
+           std::string::npos;
+  };
+  EXPECT_FALSE(isBright());
+  picture.speed = {0.0, 1.0};
+  EXPECT_DOUBLE_EQ(fastestOf(picture), 1.0);
+  EXPECT_TRUE(isBright());
+  picture.speed.reset();
+  EXPECT_EQ(fastestOf(picture), 0.0) << "of no known speed";
+}
+
 TEST(Pictures, Forces_AreCounted) {
   ScenePicture picture;
   EXPECT_EQ(countForces(picture, 1.0).contacts, 0u);

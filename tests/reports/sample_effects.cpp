@@ -95,8 +95,10 @@ EffectsResults effectsResults(int packings) {
     results["ensemble"].push_back(std::move(ensemble));
   }
   for (int k = 0; k < packings; ++k)
-    results["packings"].push_back(
-        {{"index", k}, {"seed", k + 1}, {"hash", "9f86d08"}, {"from_cache", false}});
+    results["packings"].push_back({{"index", k},
+                                   {"seed", k + 1},
+                                   {"hash", fmt::format("9f86d08 {}", k)},
+                                   {"from_cache", false}});
   Json friction = leg("friction", 0.5, 45.0), bottom = leg("bottom_friction", 0.995, 424.0);
   for (Json* each : {&friction, &bottom}) {
     (*each)["packings"] = packings;

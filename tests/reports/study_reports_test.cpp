@@ -84,6 +84,20 @@ TEST(EffectsReport, FewPackings_NothingIsTested) {
   EXPECT_TRUE(has(text, "within the two runs of one packing"));
 }
 
+TEST(EffectsReport, OneStart_SpeaksOfNoPackingsAndNoErrors) {
+  EffectsResults results = sample::effectsResults(2);
+  results.packings[1].hash = results.packings[0].hash;
+  const Report report = reportOf(results);
+  const std::string text = textOf(report);
+  EXPECT_TRUE(has(text, "The scene has one start")) << text;
+  EXPECT_TRUE(has(text, "One start, run 2 times"));
+  for (const char* const ofMany :
+       {"ewer than 4 packings", "oo few packings", "standard error)", "at least 4 packings; with"})
+    EXPECT_FALSE(has(text, ofMany)) << ofMany;
+  for (const std::string& sentence : report.overview.conclusion)
+    EXPECT_FALSE(has(sentence, "packing")) << sentence;
+}
+
 TEST(StabilityOverview, DegradedCase_StandsInTheHead) {
   StabilityResults results = sample::stabilityResults();
   const auto conclusion = reportOf(results).overview.conclusion;

@@ -13,7 +13,7 @@ import subprocess
 import tempfile
 import unittest
 
-WIDTHS = (390, 1280, 1920)
+WIDTHS = (390, 700, 1000, 1280, 1920)
 HEIGHT = 800
 LEAST_LETTERS = 11  # [px]
 LEAST_CONTRAST = 4.5  # WCAG 2, AA
@@ -68,6 +68,9 @@ function look(frame) {
     const box = table.closest('.scroll');
     if (!box || box.getBoundingClientRect().right > root.clientWidth + 1) found.cut.push(table.className || 'table');
   }
+  found.forestCut = Math.max(0, ...[...doc.querySelectorAll('table.forest')].map(t => t.parentElement.scrollWidth - t.parentElement.clientWidth));
+  const legend = doc.querySelector('#legend');
+  found.legendCut = legend ? legend.scrollWidth - legend.clientWidth : 0;
   if (matrix) found.matrixCut = matrix.parentElement.scrollWidth - matrix.parentElement.clientWidth;
   for (const words of doc.querySelectorAll('.overview small')) {
     ++found.told;  // what hangs below a line is no line
@@ -199,6 +202,8 @@ class Pages(unittest.TestCase):
         def check(one):
             self.assertLessEqual(one["overflow"], 0)
             self.assertEqual(one["cut"], [], "tables scroll within a box of their own")
+            self.assertLessEqual(one["forestCut"], 0, "the verdict is the last column")
+            self.assertLessEqual(one["legendCut"], 0)
 
         self.each(self.light, check)
 
