@@ -81,8 +81,8 @@ class Lines(SystemTest):
         self.assertIn(" ".join(whole.split()), " ".join(" ".join(line.removeprefix(comment) for line in told).join([comment, ""]).split()))
 
     def test_refusals(self):
-        self.assert_wraps("stderr", ["calibrate", "--en", "0.9", "--kn", "1", "--gn", "0.1", COUETTE], "crossgrain: ")
-        self.assert_wraps("stderr", ["compare", COUETTE, "--engines", "nobody", "--out", self.out], "crossgrain: ")
+        for command in (["calibrate"], ["compare", COUETTE, "--engines", "grain"]):
+            self.assert_wraps("stderr", command, "crossgrain: ")
 
     def test_comments(self):
         command = ["calibrate", "--en", "0.9", "--et", "0.8", "--tc", "1e-3", "--mass", "1e-3"]
@@ -123,7 +123,7 @@ class Summaries(SystemTest):
         rows = [row for row in self.rows("endpoints.csv") if row["kind"] == "peer"]
         self.assertEqual(9, len(rows))
         self.assertEqual(9, len(re.findall(r"(?m)^\S[^:]*: grain \S+.*, margin \S+", done.stdout)))
-        answers = re.findall(r"(?m)^  box2d-penalty +\S+ +[+−]\S+ \(\S+ to \S+\) +\S (.*)$", done.stdout)
+        answers = re.findall(r"(?m)^  box2d-penalty +\S+ +[+−]?\S+ \(\S+ to \S+\)\S* +\S (.*)$", done.stdout)
         agree = {"no_difference_seen": "agree", "small_difference": "agree"}
         self.assertEqual([agree.get(row["answer"], row["answer"]) for row in rows], answers)
         self.assertEqual(2, len(re.findall(r"(?m)^(?:grain|box2d-penalty)  ", done.stdout)))
