@@ -195,14 +195,15 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
   reportKeysWithoutUse(cases, "check", line.json ? stderr : stdout);
   printNotes();
   const ScratchFolder scratch;
-  // Where progress is not redrawn it is one line, and none where a mistake may follow.
+  // Where progress is not redrawn it is one line, and not beside that of a mistake.
   const bool redrawn = ::isatty(STDERR_FILENO) == 1;
   const bool quiet = line.json || line.run.quiet || options.untimed;
   Progress progress(quiet || !redrawn);
   const auto beforeTiming = [&](std::size_t engines) {
     constexpr std::size_t few = 4;
     if (!quiet && !redrawn && engines > few)
-      fmt::print(stderr, "timing steps of {} engines; --no-timing leaves that out\n", engines);
+      say("timing steps of {} engines; --no-timing leaves that out\n", engines);
+    std::fflush(stdout);
   };
   json all = json::array();
   for (const Case& setup : cases) {

@@ -263,7 +263,9 @@ json checkedIn(const Case& setup, const std::vector<std::string>& names, bool ti
     result[called.contains(effect) ? "effects" : "left_out"].push_back(toString(effect));
   result["engines"] = json::array();
   const std::vector<EngineEntry> entries = flows ? enginesFor(setup, names) : selectEngines(names);
-  if (timed && flows) beforeTiming(entries.size());
+  if (timed && flows)
+    beforeTiming(static_cast<std::size_t>(std::ranges::count_if(
+        entries, [](const EngineEntry& entry) { return entry.mirrors.empty(); })));
   progress.begin(timed && flows ? "timing engines" : "asking engines",
                  std::vector<double>(entries.size(), 1.0));
   for (std::size_t k = 0; k < entries.size(); ++k) {

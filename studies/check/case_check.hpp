@@ -16,7 +16,7 @@ namespace crossgrain::inline studies {
 /// the cache, else on a made-up one (cautions.hpp): nothing of it is kept.
 /// @param names  of engines, "all" allowed; mirrors that would run along are asked too
 /// @param timed         whether to time steps
-/// @param beforeTiming  called with the number of engines, once nothing is left to refuse
+/// @param beforeTiming  called with the number of engines, mirrors left out
 /// @returns name, variant, kind, disks, wall_disks, dt_s, effects, cautions, engines; of a Couette
 ///          case also cell figures and predictions (docs/methods.md)
 /// @throws BadInput, also for a time step beyond the limit of a case that compare would refuse

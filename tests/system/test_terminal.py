@@ -94,10 +94,10 @@ class Lines(SystemTest):
 
     def test_many_engines_are_timed_with_a_line_before(self):
         done = self.run_program("check", COUETTE, "--engines", "all")
-        self.assertRegex(done.stderr, r"(?m)^timing steps of \d+ engines; --no-timing leaves that out$")
+        self.assertRegex(done.stdout, r"^timing steps of \d+ engines; --no-timing leaves that out\n")
         for fewer in (["--no-timing"], ["--quiet"], ["--json"], ["--engines", "grain"]):
             words = ["check", COUETTE, *(fewer if "--engines" in fewer else ["--engines", "grain,box2d-penalty", *fewer])]
-            self.assertEqual("", self.run_program(*words).stderr, fewer)
+            self.assertNotIn("timing steps", self.run_program(*words).stdout, fewer)
 
     def test_parts_that_are_not_asked_for_are_not_counted(self):
         done = self.run_program("conformance", "grain", "-k", "FliesStraight")
