@@ -30,6 +30,9 @@ class Core {
   /// @param record  whether contacts() is to know this step's forces
   /// @param tally   whether the ledger is to know what each contact loses
   void step(bool record, bool tally);
+  void advance(bool record, bool tally) {
+    team_.step([=, this] { step(record, tally); });
+  }
   void beginUnderWay(const std::vector<Contact>& forces);
   void findNeighbours();
 

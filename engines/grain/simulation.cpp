@@ -28,7 +28,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 void Simulation::advance(std::uint64_t steps) {
   with(core_, [&](auto& core) {
     // A contact's loss over the last step began with the forces of the one before.
-    for (std::uint64_t left = steps; left-- > 0;) core.step(left == 0, left <= 1);
+    for (std::uint64_t left = steps; left-- > 0;) core.advance(left == 0, left <= 1);
   });
 }
 

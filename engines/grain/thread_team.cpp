@@ -1,5 +1,7 @@
 #include "engines/grain/thread_team.hpp"
 
+#include <algorithm>
+
 namespace grain {
 namespace {
 
@@ -30,15 +32,40 @@ ThreadTeam::~ThreadTeam() {
   round_.notify_all();
 }
 
+/// Tries a number of steps together, then as many alone; the median tells, which neither a rebuild
+/// of lists nor another program's moment changes.
+void ThreadTeam::took(double seconds) {
+  const std::size_t now = tried_++;
+  if (now < 2 * trial) seconds_[now % trial] = seconds;
+  if (now + 1 == trial || now + 1 == 2 * trial) {
+    const auto middle = seconds_.begin() + trial / 2;
+    std::nth_element(seconds_.begin(), middle, seconds_.end());
+    alone_ = now + 1 == trial || *middle < together_;
+    if (now + 1 == trial) together_ = *middle;
+  }
+  if (now + 1 == between) {
+    alone_ = false;
+    tried_ = 0;
+  }
+}
+
 void ThreadTeam::runTask(const Task& task) {
   if (threads_.empty()) return task.call(task.work, 0);
   task_ = task;
+  if (alone_) {
+    for (std::size_t part = 0; part < thrown_.size(); ++part) finish(part);
+    return rethrow();
+  }
   pending_.store(static_cast<std::uint32_t>(threads_.size()), std::memory_order_relaxed);
   round_.fetch_add(1, std::memory_order_release);
   round_.notify_all();
   finish(0);
   for (std::uint32_t left; (left = pending_.load(std::memory_order_acquire)) != 0;)
     waitWhile(pending_, left);
+  rethrow();
+}
+
+void ThreadTeam::rethrow() {
   std::exception_ptr first;
   for (std::exception_ptr& thrown : thrown_) {
     if (!first) first = thrown;

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -18,12 +20,23 @@ inline std::size_t partCount(int threads, std::size_t bodies) {
 
 /// Threads that do one thing together, part by part, again and again. They spin for a while between
 /// two calls, as steps follow each other within microseconds, then give way to others, then sleep.
+/// Where steps are short or processors are taken, one thread does all parts in less time: the team
+/// tries both every few thousand steps. The parts are the same, and so are the results.
 class ThreadTeam {
  public:
   explicit ThreadTeam(std::size_t parts);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  /// Does a step, in which work is shared out.
+  template <class Step>
+  void step(const Step& work) {
+    if (threads_.empty()) return work();
+    const auto begin = Clock::now();
+    work();
+    took(std::chrono::duration<double>(Clock::now() - begin).count());
+  }
 
   /// Calls work(part) for every part, part 0 on the calling thread, and waits for all of them.
   /// Throws what a part throws, the lowest part's first.
@@ -34,19 +47,28 @@ class ThreadTeam {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::size_t trial = 33, between = 4096;  ///< [steps]
+
   /// A std::function would allocate for all but the smallest lambda, twice a step.
   struct Task {
     const void* work;
     void (*call)(const void* work, std::size_t part);
   };
 
+  void took(double seconds);
   void runTask(const Task& task);
+  void rethrow();
   void serve(std::size_t part);
   void finish(std::size_t part) noexcept;
 
   Task task_{};
   std::atomic<std::uint32_t> round_{0}, pending_{0};
   std::atomic<bool> stop_{false};
+  bool alone_ = false;     ///< the calling thread does all parts
+  std::size_t tried_ = 0;  ///< steps since both began to be tried
+  std::array<double, trial> seconds_{};
+  double together_ = 0.0;  ///< a step of the trial [s]
   std::vector<std::exception_ptr> thrown_;
   std::vector<std::jthread> threads_;
 };
