@@ -36,7 +36,7 @@ class SpaceCells {
   Quad boxes(const Quad& count) const;
 
   /// Calls visit(begin, end) for ranges of the sorted spheres that are in the cells around sphere
-  /// i, each once.
+  /// i, each once, unless all of a range have lower numbers.
   template <class Visit>
   void around(std::size_t i, Visit&& visit) const;
 
@@ -73,9 +73,20 @@ void SpaceCells::around(std::size_t i, Visit&& visit) const {
   };
   each(ranges[2], [&](std::int32_t z) {
     each(ranges[1], [&](std::int32_t y) {
-      for (std::size_t r = 0; r < ranges[0].count; ++r)
-        visit(static_cast<std::size_t>(begin_[number({ranges[0].of[r].first, y, z})]),
-              static_cast<std::size_t>(begin_[number({ranges[0].of[r].second, y, z}) + 1]));
+      for (std::size_t r = 0; r < ranges[0].count; ++r) {
+        const std::size_t first = number({ranges[0].of[r].first, y, z}),
+                          last = number({ranges[0].of[r].second, y, z});
+        // A cell's last has its highest number. Spheres are numbered by place from time to time, so
+        // that half of the ranges are left out.
+        bool some = false;
+        for (std::size_t cell = first; cell <= last; ++cell)
+          some |= begin_[cell] < begin_[cell + 1] &&
+                  sorted_[static_cast<std::size_t>(begin_[cell + 1]) - 1] >
+                      static_cast<std::int32_t>(i);
+        if (some)
+          visit(static_cast<std::size_t>(begin_[first]),
+                static_cast<std::size_t>(begin_[last + 1]));
+      }
     });
   });
 }
