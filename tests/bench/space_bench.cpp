@@ -116,6 +116,61 @@ SpheresSetup restingBed(std::size_t spheres) {
   return setup;
 }
 
+/// As cases/space/silo.toml with its opening shut: layers of rings of spheres in a hollow cylinder,
+/// on spheres that touch, of two materials; at rest after 0.1 s.
+SpheresSetup filledSilo(std::size_t spheres) {
+  constexpr double radius = 0.002, pitch = 2.2 * radius, hollow = 0.025;
+  SpheresSetup setup;
+  const auto rings = [](double outer, double spacing) {
+    std::vector<Vector> places;
+    for (double ring = 0.0; ring <= outer; ring += spacing) {
+      const auto count = std::max(1, static_cast<int>(2.0 * std::numbers::pi * ring / spacing));
+      for (int k = 0; k < count; ++k)
+        places.push_back(ring * Vector{std::cos(2.0 * std::numbers::pi * k / count),
+                                       std::sin(2.0 * std::numbers::pi * k / count), 0.0});
+    }
+    return places;
+  };
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> off(-1.0, 1.0);
+  const std::vector<Vector> layer = rings(hollow - 1.05 * radius, pitch);
+  for (std::size_t k = 0; k < spheres; ++k) {
+    const double a = radius * (1.0 + 0.05 * off(random));
+    const double mass = 4.0 / 3.0 * std::numbers::pi * a * a * a * 2500.0;
+    const auto up = static_cast<double>(k / layer.size() + 1);
+    setup.position.push_back(layer[k % layer.size()] + Vector{0.0, 0.0, up * pitch} +
+                             0.02 * radius * Vector{off(random), off(random), off(random)});
+    setup.radius.push_back(a);
+    setup.mass.push_back(mass);
+    setup.inertia.push_back(0.4 * mass * a * a);
+  }
+  setup.velocity.resize(spheres);
+  setup.spin.resize(spheres);
+  grain::SpaceWall silo, ground;
+  silo.position = rings(hollow, 2.0 * radius);
+  silo.radius.assign(silo.position.size(), radius);
+  silo.cylinders.push_back({{}, {0.0, 0.0, 1.0}, hollow});
+  ground.planes.push_back({{0.0, 0.0, -0.09}, {0.0, 0.0, 1.0}});
+  silo.motion = ground.motion = [](double) { return grain::SpaceWall::State{}; };
+  setup.walls = {silo, ground};
+  setup.law.kn = 1000.0;
+  setup.law.gn = 0.0882;
+  setup.law.kt = 285.7;
+  setup.law.gt = 0.0252;
+  setup.law.mu = 0.3;
+  setup.law.tangential = grain::TangentialLaw::springDashpot;
+  setup.law.conventions.coulombBound = grain::CoulombBound::magnitude;
+  grain::ContactLaw steel = setup.law;
+  steel.gn = 0.162;
+  steel.gt = 0.0463;
+  steel.mu = 0.2;
+  setup.materials = grain::Materials{
+      std::vector<std::int32_t>(spheres, 0), {1, 1}, 2, {setup.law, steel, steel, steel}};
+  setup.gravity = {0.0, 0.0, -9.81};
+  setup.dt = 2.4e-5;
+  return setup;
+}
+
 /// A pull of a twentieth of the elastic force.
 void cohere(SpheresSetup& s) {
   s.law.cohesion = grain::CohesionLaw::area;
@@ -205,7 +260,8 @@ int main(int argc, char** argv) {
   for (const std::size_t spheres : {500, 3000, 20000, 100000, 1000000})
     add("dilute", cellOf(dilute), spheres);
   for (const std::size_t spheres : {560, 20000}) add("dense", cellOf(dense), spheres);
-  add("bed", restingBed, 600);
+  for (const std::size_t spheres : {600, 20000}) add("bed", restingBed, spheres);
+  add("silo", filledSilo, 1488);
   benchmark::RunSpecifiedBenchmarks();
   return 0;
 }
