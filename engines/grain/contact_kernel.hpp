@@ -34,19 +34,6 @@ struct MaterialBlock : ContactBlock<Real> {
 template <class L, class Real>
 using BlockOf = std::conditional_t<HasMaterials<L>, MaterialBlock<Real>, ContactBlock<Real>>;
 
-/// A pair's own law: of a law without materials that one itself.
-template <class L, class Real>
-GRAIN_INLINE const L& lawOfPair(const L& law, const ContactBlock<Real>&, std::size_t) {
-  return law;
-}
-template <HasMaterials L, class Real>
-GRAIN_INLINE L lawOfPair(const L& law, const MaterialBlock<Real>& b, std::size_t p) {
-  L own = withoutConstants(law);
-  forPairConstants(law, [&](std::size_t which, auto member)
-                            GRAIN_INLINE_LAMBDA { own.*member = b.constants[which][p]; });
-  return own;
-}
-
 /// A few vectors at a time; a library's way to copy has its beginnings to pay for.
 template <class T>
 GRAIN_INLINE void copy(const T* from, std::size_t count, T* to) {

@@ -79,9 +79,10 @@ constexpr PlaneKernel<Real> planeKernelAt() {
   return nullptr;
 }
 
-template <std::size_t Index>
-constexpr SpacePairKernel spaceKernelAt() {
-  if constexpr (Compiled(Index).inSpace()) return &space::contactKernel<LawAt<double, Index>>;
+/// @tparam Own  the law, or the same with materials
+template <class Own, class Bodies, bool IsCompiled>
+constexpr SpaceContactKernel<Bodies> spaceKernelOf() {
+  if constexpr (IsCompiled) return &space::contactKernel<Own, Bodies>;
   return nullptr;
 }
 
@@ -94,12 +95,14 @@ constexpr std::size_t meaningful(std::size_t index) {
 
 template <class Real, std::size_t... C>
 constexpr SpaceKernels spaceKernels(std::index_sequence<C...>) {
+  using General = GeneralLaw<double>;
   if constexpr (sizeof(Real) == sizeof(double))
-    return {{spaceKernelAt<C>()...},
-            &space::pairKernel<GeneralLaw<double>, false>,
-            &space::pairKernel<space::EverydayLaw, false>,
-            &space::pairKernel<GeneralLaw<double>, true>,
-            &space::pairKernel<space::EverydayLaw, true>,
+    return {{{spaceKernelOf<LawAt<double, C>, SpacePairs, Compiled(C).inSpace()>()...},
+             &space::contactKernel<General, SpacePairs>},
+            {{spaceKernelOf<OfMaterials<LawAt<double, C>>, SpacePairs, Compiled(C).inSpace()>()...},
+             &space::contactKernel<OfMaterials<General>, SpacePairs>},
+            {{spaceKernelOf<OfMaterials<LawAt<double, C>>, SpacePlane, Compiled(C).inSpace()>()...},
+             &space::contactKernel<OfMaterials<General>, SpacePlane>},
             &space::motionKernel,
             &space::neighbourKernel,
             &space::chooseKernel};

@@ -225,12 +225,15 @@ GRAIN_INLINE void forPairOptions(const L& law, Visit&& visit) {
   visit(&Options::dashpotLeftOut);
 }
 
+/// A law that has its conventions at run time.
+template <class L>
+concept DecidedAtRunTime = std::is_member_object_pointer_v<decltype(&L::planeLever)>;
+
 /// The law without its constants. A law copied as a whole would stand in memory, where the compiler
 /// leaves it: its constants are each to be a vector.
 template <class L>
 GRAIN_INLINE L withoutConstants(const L& law) {
-  if constexpr (std::is_member_object_pointer_v<decltype(&L::planeLever)>) {  // the general one:
-                                                                              // its options too
+  if constexpr (DecidedAtRunTime<L>) {  // its options too
     return law;
   } else {
     L own;
@@ -239,6 +242,19 @@ GRAIN_INLINE L withoutConstants(const L& law) {
     forPairOptions(law, [&](auto member) GRAIN_INLINE_LAMBDA { own.*member = law.*member; });
     return own;
   }
+}
+
+/// A pair's own law: of a law without materials that one itself.
+template <class L, class Block>
+GRAIN_INLINE const L& lawOfPair(const L& law, const Block&, std::size_t) {
+  return law;
+}
+template <HasMaterials L, class Block>
+GRAIN_INLINE L lawOfPair(const L& law, const Block& b, std::size_t p) {
+  L own = withoutConstants(law);
+  forPairConstants(law, [&](std::size_t which, auto member)
+                            GRAIN_INLINE_LAMBDA { own.*member = b.constants[which][p]; });
+  return own;
 }
 
 inline constexpr std::size_t effectVariants = 5 * 2 * 2 * rollsCount * 2;

@@ -6,7 +6,7 @@
 
 namespace grain {
 
-/// Which records a law's contacts have, besides SpaceTouch.
+/// Which records a law's contacts have, besides those that all have.
 struct SpaceRecords {
   bool slide = false, spring = false, rolling = false, angle = false, bond = false;
 
@@ -30,29 +30,26 @@ class SpaceContacts {
   }
   SpaceContactView view() {
     const auto at = [](auto& list, bool has) { return has ? list.data() : nullptr; };
-    return {touch_.data(),
-            at(slide_, has_.slide),
-            at(spring_, has_.spring),
-            at(rolling_, has_.rolling),
-            at(angle_, has_.angle),
-            at(bond_, has_.bond)};
+    return {
+        touch_.data(), at(spring_, has_.spring), at(angle_, has_.angle),    at(bond_, has_.bond),
+        force_.data(), at(slide_, has_.slide),   at(rolling_, has_.rolling)};
   }
   /// Calls visit(list) for each kind there is.
   void forRecords(auto&& visit) {
     visit(touch_);
-    if (has_.slide) visit(slide_);
     if (has_.spring) visit(spring_);
-    if (has_.rolling) visit(rolling_);
     if (has_.angle) visit(angle_);
     if (has_.bond) visit(bond_);
+    visit(force_);
+    if (has_.slide) visit(slide_);
+    if (has_.rolling) visit(rolling_);
   }
 
  private:
   SpaceRecords has_;
-  std::vector<SpaceTouch> touch_;
-  std::vector<SpaceSlide> slide_;
-  std::vector<Vec3<double>> spring_, rolling_, angle_;
+  Array<Quad> touch_, spring_, angle_, slide_, rolling_;
   std::vector<SpaceBond> bond_;
+  std::vector<double> force_;
 };
 
 }  // namespace grain

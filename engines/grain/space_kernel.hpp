@@ -6,25 +6,9 @@
 
 namespace grain::space {
 
-inline constexpr std::size_t blockSize = 128;
-/// Of those that meet: what numbers of one kind are kept next to each other, and how many at least
-/// go through the law side by side.
+/// Of those that meet: how many are kept next to each other, and how many at least go through the
+/// law side by side.
 inline constexpr std::size_t meetingBlock = 64, lookedAt = 32, width = 8;
-
-/// The linear law with a spring and dashpots, the everyday one, under conventions at run time: what
-/// else a law may have is not compiled.
-struct EverydayLaw : LawConstants<double>, LawOptions<double>, Conventions {
-  static constexpr NormalLaw normal = NormalLaw::linear;
-  static constexpr Damper damper = Damper::constant;
-  static constexpr TangentialLaw tangential = TangentialLaw::springDashpot;
-  static constexpr bool normalDamping = true, rotation = true;
-  static constexpr RollingLaw rolling = RollingLaw::none;
-  static constexpr CohesionLaw cohesion = CohesionLaw::none;
-  static constexpr LawConventions conventions{};
-
-  explicit EverydayLaw(const GeneralLaw<double>& law)
-      : LawConstants(law), LawOptions(law), Conventions(law) {}
-};
 
 GRAIN_INLINE double sumOfThree(const Lanes& lanes) {
   return lanes.v[0] + lanes.v[1] + lanes.v[2];
@@ -32,7 +16,7 @@ GRAIN_INLINE double sumOfThree(const Lanes& lanes) {
 
 /// Finds the pairs of begin … end−1 that meet or touched before: they are few in a flow that is not
 /// dense. A place that is no number is not skipped.
-GRAIN_INLINE std::size_t findMeeting(const SpaceView& all, const SpacePairs& pairs,
+GRAIN_INLINE std::size_t findMeeting(const SpaceView& all, const SpacePairs& pairs, double,
                                      std::size_t begin, std::size_t end, std::size_t* meeting) {
   std::size_t found = 0;
   for (std::size_t p = begin; p < end; ++p) {
@@ -46,219 +30,280 @@ GRAIN_INLINE std::size_t findMeeting(const SpaceView& all, const SpacePairs& pai
   return found;
 }
 
-/// Action of pair p on its spheres.
+/// The same of spheres at a plane, which few reach.
+GRAIN_INLINE std::size_t findMeeting(const SpaceView& all, const SpacePlane& plane, double range,
+                                     std::size_t begin, std::size_t end, std::size_t* meeting) {
+  double overlap[lookedAt];
+  const Quad* const position = all.position + begin;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < end - begin; ++k)
+    overlap[k] = position[k].w - plane.placeOf(position[k]).height;
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < end - begin; ++k) {
+    meeting[found] = begin + k;
+    found += overlap[k] > -range || plane.touches[begin + k] != 0;
+  }
+  return found;
+}
+
+/// Bodies that meet, on their way through the law. A vector is a row, which moves as one; the law
+/// takes rows apart.
+struct alignas(64) MeetingBlock {
+  Quad apart[meetingBlock];     ///< x_i − x_j, at a plane the normal; w: a_i; then the force on i
+  Quad velocity[meetingBlock];  ///< of i relative to j; w: a_j, at a plane the height; then f_t
+  Quad spinI[meetingBlock], spinJ[meetingBlock];  ///< then torques
+  Quad touch[meetingBlock], spring[meetingBlock], angle[meetingBlock], rolling[meetingBlock];
+  double memory[meetingBlock], rest[meetingBlock];
+  double inverseMassI[meetingBlock], inverseMassJ[meetingBlock];
+  double inverseInertiaI[meetingBlock], inverseInertiaJ[meetingBlock];
+  double normalForce[meetingBlock];
+};
+
+/// With the constants of each two bodies. @see forPairConstants
+struct MaterialBlock : MeetingBlock {
+  double constants[pairConstants][meetingBlock];
+};
 template <class L>
-GRAIN_INLINE void push(const L& law, const SpaceView& all, ActiveSpheres& active,
-                       const SpacePairs& pairs, std::size_t p, const SpacePush& force) {
+using BlockOf = std::conditional_t<HasMaterials<L>, MaterialBlock, MeetingBlock>;
+
+/// What the law has no use for is not gathered.
+template <class L>
+GRAIN_INLINE void gather(const L& law, const SpaceView& all, const SpacePairs& pairs, std::size_t p,
+                         std::size_t k, MeetingBlock& b) {
+  const auto i = static_cast<std::size_t>(pairs.i[p]), j = static_cast<std::size_t>(pairs.j[p]);
+  const Lanes placeI(all.position[i]), placeJ(all.position[j]);
+  Lanes apart = placeI, velocity = placeJ;
+  apart -= placeJ;
+  apart -= Lanes(pairs.shift(p));
+  apart.withLast(placeI).store(b.apart[k]);
+  if (law.normalDamping || law.tangential != TangentialLaw::none || remembersRest(law)) {
+    velocity = Lanes(all.velocity[i]);
+    velocity -= Lanes(all.velocity[j]);
+  }
+  velocity.withLast(placeJ).store(b.velocity[k]);
+  if (law.rotation) {
+    Lanes(all.spin[i]).store(b.spinI[k]);
+    Lanes(all.spin[j]).store(b.spinJ[k]);
+  }
+  if (seesMasses(law) || seesRollingInertia(law)) {
+    b.inverseMassI[k] = all.inverseMass[i];
+    b.inverseMassJ[k] = all.inverseMass[j];
+    if (law.rotation) {
+      b.inverseInertiaI[k] = all.inverseInertia[i];
+      b.inverseInertiaJ[k] = all.inverseInertia[j];
+    }
+  }
+}
+template <class L>
+GRAIN_INLINE void gather(const L& law, const SpaceView& all, const SpacePlane& plane, std::size_t i,
+                         std::size_t k, MeetingBlock& b) {
+  const Quad& sphere = all.position[i];
+  const SpacePlane::Place place = plane.placeOf(sphere);
+  b.apart[k] = quadOf(place.normal, sphere.w);
+  b.velocity[k] =
+      quadOf(vectorOf(all.velocity[i]) - plane.velocityAt(law, sphere, place), place.height);
+  if (law.rotation) b.spinI[k] = all.spin[i];
+  b.inverseMassI[k] = all.inverseMass[i];
+  if (law.rotation) b.inverseInertiaI[k] = all.inverseInertia[i];
+}
+
+GRAIN_INLINE const GeneralLaw<double>& lawOf(const GeneralLaw<double>&, const SpaceView& all,
+                                             const SpacePairs& pairs, std::size_t p) {
+  return all.lawOf(static_cast<std::size_t>(pairs.i[p]), static_cast<std::size_t>(pairs.j[p]));
+}
+GRAIN_INLINE const GeneralLaw<double>& lawOf(const GeneralLaw<double>& common, const SpaceView& all,
+                                             const SpacePlane& plane, std::size_t i) {
+  return all.laws == nullptr ? common : all.lawOf(i, plane.body);
+}
+
+/// How two that meet lie to each other.
+template <class L>
+GRAIN_INLINE void place(const L& law, const MeetingBlock& b, std::size_t k, const SpacePairs&,
+                        Meeting<double>& meeting) {
+  const Vec3<double> apart = vectorOf(b.apart[k]);
+  const double distance = length(apart);
+  meeting.normal = (1.0 / distance) * apart;
+  meeting.radiusI = b.apart[k].w;
+  meeting.radiusJ = b.velocity[k].w;
+  meeting.overlap = meeting.radiusI + meeting.radiusJ - distance;
+  if (law.rotation) {
+    meeting.spinI = vectorOf(b.spinI[k]);
+    meeting.spinJ = vectorOf(b.spinJ[k]);
+    setArms(law, meeting);
+  }
+  if (seesMasses(law) || seesRollingInertia(law)) {
+    meeting.inverseMassI = b.inverseMassI[k];
+    meeting.inverseMassJ = b.inverseMassJ[k];
+    if (law.rotation) {
+      meeting.inverseInertiaI = b.inverseInertiaI[k];
+      meeting.inverseInertiaJ = b.inverseInertiaJ[k];
+    }
+  }
+}
+template <class L>
+GRAIN_INLINE void place(const L& law, const MeetingBlock& b, std::size_t k, const SpacePlane&,
+                        Meeting<double>& meeting) {
+  const double height = b.velocity[k].w;
+  meeting.normal = vectorOf(b.apart[k]);
+  meeting.radiusI = b.apart[k].w;
+  meeting.overlap = meeting.radiusI - height;
+  if (law.rotation) {
+    meeting.spinI = vectorOf(b.spinI[k]);
+    setArms(law, meeting, height);
+    meeting.inverseInertiaI = b.inverseInertiaI[k];
+  }
+  meeting.inverseMassI = b.inverseMassI[k];
+}
+
+/// Whether one is not deeper in the other than is allowed, which no number is.
+GRAIN_INLINE bool isWithin(double maxOverlap, const Meeting<double>& meeting, const SpacePairs&) {
+  return meeting.overlap <= maxOverlap * smaller(meeting.radiusI, meeting.radiusJ) &&
+         meeting.overlap < meeting.radiusI + meeting.radiusJ;
+}
+GRAIN_INLINE bool isWithin(double maxOverlap, const Meeting<double>& meeting, const SpacePlane&) {
+  return meeting.overlap <= maxOverlap * meeting.radiusI;
+}
+
+GRAIN_INLINE void setTouches(const SpaceView& all, const SpacePairs& pairs, double range,
+                             std::size_t p, bool now) {
+  const auto i = static_cast<std::size_t>(pairs.i[p]), j = static_cast<std::size_t>(pairs.j[p]);
+  if (now != (pairs.touches[p] != 0))
+    pairs.setTouches(p, now, all.position[i].w + all.position[j].w + range);
+}
+GRAIN_INLINE void setTouches(const SpaceView&, const SpacePlane& plane, double, std::size_t i,
+                             bool now) {
+  plane.touches[i] = now;
+}
+
+/// Action of pair p on its spheres.
+GRAIN_INLINE void push(bool turns, const SpaceView& all, ActiveSpheres& active,
+                       const SpacePairs& pairs, std::size_t p, const MeetingBlock& b,
+                       std::size_t k) {
   if (pairs.pushes != nullptr) {
-    pairs.pushes[p] = force;
+    pairs.pushes[p].force = b.apart[k];
+    if (!turns) return;
+    pairs.pushes[p].torqueI = b.spinI[k];
+    pairs.pushes[p].torqueJ = b.spinJ[k];
     return;
   }
   const auto i = static_cast<std::size_t>(pairs.i[p]), j = static_cast<std::size_t>(pairs.j[p]);
   active.push(i);
   active.push(j);
-  add(all.force[i], force.force, 1.0);
-  add(all.force[j], force.force, -1.0);
-  if (!law.rotation) return;
-  add(all.torque[i], force.torqueI, 1.0);
-  add(all.torque[j], force.torqueJ, 1.0);
+  all.force[i] += b.apart[k];
+  all.force[j] -= b.apart[k];
+  if (!turns) return;
+  all.torque[i] += b.spinI[k];
+  all.torque[j] += b.spinJ[k];
+}
+/// A plane pushes each sphere. @see Spheres::everyone_
+GRAIN_INLINE void push(bool turns, const SpaceView& all, ActiveSpheres&, const SpacePlane&,
+                       std::size_t i, const MeetingBlock& b, std::size_t k) {
+  all.force[i] += b.apart[k];
+  if (turns) all.torque[i] += b.spinI[k];
 }
 
-/// The law of two spheres: of several materials theirs.
-template <class L, bool OfMaterials>
-GRAIN_INLINE std::conditional_t<OfMaterials, L, const L&> lawOfPair(const L& common,
-                                                                    const SpaceView& all,
-                                                                    std::size_t i, std::size_t j) {
-  if constexpr (OfMaterials)
-    return L(all.lawOf(i, j));
-  else
-    return common;
-}
-
-/// Of any law, pair by pair. Pairs that do not touch add nothing.
-/// @tparam OfMaterials  each two spheres have a law of their own
-template <class L, bool OfMaterials>
-static SpaceReport pairKernel(const GeneralLaw<double>& general, const SpaceConventions& how,
-                              const SpaceView& view, const SpacePairs& list, double range,
-                              double maxOverlap) {
-  const L common(general);
-  const SpaceView all = view;  // copies that no store through a pointer can change
-  const SpacePairs pairs = list;
-  ActiveSpheres active = view.active;
-  SpaceReport report;
-  std::size_t near[blockSize];
-  for (std::size_t begin = 0; begin < pairs.count; begin += blockSize) {
-    const std::size_t end = smaller(begin + blockSize, pairs.count);
-    const std::size_t found = findMeeting(all, pairs, begin, end, near);
-    for (std::size_t k = 0; k < found; ++k) {
-      const std::size_t p = near[k];
-      const auto i = static_cast<std::size_t>(pairs.i[p]);
-      const auto j = static_cast<std::size_t>(pairs.j[p]);
-      const L& law = lawOfPair<L, OfMaterials>(common, all, i, j);
-      const Vec3<double> d =
-          vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift(p));
-      const double distance = length(d);
-      const double overlap = all.position[i].w + all.position[j].w - distance;
-      const Meeting<double> meeting = meetingOf(law, all, i, j, (1.0 / distance) * d, overlap);
-      SpaceMemory<double> kept{};
-      if (pairs.touches[p] != 0) kept = pairs.contacts.memory(p);
-      bool touches = meeting.overlap > 0.0;
-      if (law.cohesion == CohesionLaw::jkr) {
-        const double radius =
-            meeting.radiusI * meeting.radiusJ / (meeting.radiusI + meeting.radiusJ);
-        kept.memory = isBonded(law, meeting.overlap, radius, kept.memory);
-        touches = kept.memory > 0.0;
-      }
-      const double smallest = smaller(meeting.radiusI, meeting.radiusJ);
-      if (!(meeting.overlap <= maxOverlap * smallest) || !(distance > 0.0)) report.deep = true;
-      pairs.setTouches(p, touches, meeting.radiusI + meeting.radiusJ + range);
-      if (!touches) continue;
-      ++report.touching;
-      const MeetingForce<double> force = meetingForce(law, how, meeting, kept);
-      pairs.contacts.set(
-          p, kept, {meeting.overlap, force.normal, force.sliding, force.tangential, force.rolling});
-      push(law, all, active, pairs, p, {force.force, force.torqueI, force.torqueJ});
-    }
-  }
-  report.active = active.count;
-  return report;
-}
-
-/// Vectors of a few pairs, component by component.
-struct Column {
-  double x[meetingBlock], y[meetingBlock], z[meetingBlock];
-
-  GRAIN_INLINE void set(std::size_t k, const Vec3<double>& v) {
-    x[k] = v.x;
-    y[k] = v.y;
-    z[k] = v.z;
-  }
-  GRAIN_INLINE Vec3<double> at(std::size_t k) const { return {x[k], y[k], z[k]}; }
-};
-
-/// Pairs that meet, on their way through the law.
-struct alignas(64) MeetingBlock {
-  Column apart, velocity, spinI, spinJ, normal, spring, angle;
-  double radiusI[meetingBlock], radiusJ[meetingBlock];
-  double inverseMassI[meetingBlock], inverseMassJ[meetingBlock];
-  double inverseInertiaI[meetingBlock], inverseInertiaJ[meetingBlock];
-  Column force, tangential, rolling, torqueI, torqueJ;
-  double overlap[meetingBlock], normalForce[meetingBlock], sliding[meetingBlock];
-};
-
-/// The same of a law that knows its effects and conventions, so that pairs are taken side by side:
-/// the same arithmetic, to the bit. What the law has no use for is not gathered.
-template <class L>
-static SpaceReport contactKernel(const GeneralLaw<double>& general, const SpaceConventions&,
-                                 const SpaceView& view, const SpacePairs& list, double range,
+/// Contacts are taken in blocks: find those that meet, gather what the law sees of them, apply it
+/// side by side where it is known to the compiler, then scatter the forces in the order of the
+/// list. Bodies that do not touch add nothing.
+template <class L, class Bodies>
+static SpaceReport contactKernel(const GeneralLaw<double>& general, const SpaceConventions& given,
+                                 const SpaceView& view, const Bodies& list, double range,
                                  double maxOverlap) {
-  const L law(general);
-  const bool friction = law.tangential != TangentialLaw::none,
-             rolls = law.rolling != RollingLaw::none;
-  const bool remembers = hasSprings(law) || law.rolling == RollingLaw::spring;
-  const bool masses = seesMasses(law) || seesRollingInertia(law);
+  const L common(general);
+  SpaceConventions how;
+  if constexpr (DecidedAtRunTime<L>) how = given;
+  const bool friction = common.tangential != TangentialLaw::none,
+             rolls = common.rolling != RollingLaw::none, turns = common.rotation;
+  const bool remembersAngle = common.rolling == RollingLaw::spring;
+  const bool remembersNormal = hasSprings(common) || remembersAngle;
   const SpaceView all = view;  // copies that no store through a pointer can change
-  const SpacePairs pairs = list;
-  const SpaceContactView kept = pairs.contacts;
+  const Bodies bodies = list;
+  const SpaceContactView kept = bodies.contacts;
   ActiveSpheres active = view.active;
   SpaceReport report;
   std::size_t near[meetingBlock + width];
-  MeetingBlock b;
+  BlockOf<L> b;
   std::size_t found = 0;
-  for (std::size_t begin = 0; begin < pairs.count; begin += lookedAt) {
-    const bool last = begin + lookedAt >= pairs.count;
-    found += findMeeting(all, pairs, begin, last ? pairs.count : begin + lookedAt, near + found);
+  for (std::size_t begin = bodies.first(); begin < bodies.last(); begin += lookedAt) {
+    const bool last = begin + lookedAt >= bodies.last();
+    found += findMeeting(all, bodies, range, begin, last ? bodies.last() : begin + lookedAt,
+                         near + found);
     if (found == 0 || (!last && found + lookedAt <= meetingBlock)) continue;
     const std::size_t full = (found + width - 1) / width * width;
     for (std::size_t k = found; k < full; ++k) near[k] = near[found - 1];
     for (std::size_t k = 0; k < full; ++k) {
       const std::size_t p = near[k];
-      const auto i = static_cast<std::size_t>(pairs.i[p]);
-      const auto j = static_cast<std::size_t>(pairs.j[p]);
-      b.apart.set(k,
-                  vectorOf(all.position[i]) - vectorOf(all.position[j]) - vectorOf(pairs.shift(p)));
-      if (law.normalDamping || friction)
-        b.velocity.set(k, vectorOf(all.velocity[i]) - vectorOf(all.velocity[j]));
-      if (law.rotation) {
-        b.spinI.set(k, vectorOf(all.spin[i]));
-        b.spinJ.set(k, vectorOf(all.spin[j]));
+      gather(common, all, bodies, p, k, b);
+      if constexpr (HasMaterials<L>) {
+        const GeneralLaw<double>& own = lawOf(general, all, bodies, p);
+        forPairConstants(common, [&](std::size_t which, auto member)
+                                     GRAIN_INLINE_LAMBDA { b.constants[which][k] = own.*member; });
       }
-      b.radiusI[k] = all.position[i].w;
-      b.radiusJ[k] = all.position[j].w;
-      if (masses) {
-        b.inverseMassI[k] = all.inverseMass[i];
-        b.inverseMassJ[k] = all.inverseMass[j];
-        b.inverseInertiaI[k] = all.inverseInertia[i];
-        b.inverseInertiaJ[k] = all.inverseInertia[j];
+      const bool touched = bodies.touches[p] != 0;
+      const Quad none{};
+      if (remembersNormal) b.touch[k] = touched ? kept.touch[p] : none;
+      if (hasSprings(common)) b.spring[k] = touched ? kept.spring[p] : none;
+      if (remembersAngle) b.angle[k] = touched ? kept.angle[p] : none;
+      if (remembers(common)) {
+        b.memory[k] = touched ? kept.bond[p].memory : 0.0;
+        b.rest[k] = touched ? kept.bond[p].rest : 0.0;
       }
-      const bool touched = pairs.touches[p] != 0;
-      if (remembers) b.normal.set(k, touched ? kept.touch[p].normal : Vec3<double>{});
-      if (hasSprings(law)) b.spring.set(k, touched ? kept.spring[p] : Vec3<double>{});
-      if (law.rolling == RollingLaw::spring)
-        b.angle.set(k, touched ? kept.angle[p] : Vec3<double>{});
     }
+    std::int64_t deep = 0;
 #pragma GCC ivdep
     for (std::size_t k = 0; k < full; ++k) {
-      const Vec3<double> apart = b.apart.at(k);
-      const double distance = length(apart);
+      const L& law = lawOfPair(common, b, k);
       Meeting<double> meeting{};
-      meeting.normal = (1.0 / distance) * apart;
-      if (law.normalDamping || friction) meeting.velocity = b.velocity.at(k);
-      meeting.radiusI = b.radiusI[k];
-      meeting.radiusJ = b.radiusJ[k];
-      meeting.overlap = meeting.radiusI + meeting.radiusJ - distance;
-      if (law.rotation) {
-        meeting.spinI = b.spinI.at(k);
-        meeting.spinJ = b.spinJ.at(k);
-        meeting.leverI = armOf(law.lever, meeting.radiusI, meeting.radiusJ, meeting.overlap);
-        meeting.leverJ = armOf(law.lever, meeting.radiusJ, meeting.radiusI, meeting.overlap);
-        meeting.armI = armOf(law.velocityLever, meeting.radiusI, meeting.radiusJ, meeting.overlap);
-        meeting.armJ = armOf(law.velocityLever, meeting.radiusJ, meeting.radiusI, meeting.overlap);
-      }
-      if (masses) {
-        meeting.inverseMassI = b.inverseMassI[k];
-        meeting.inverseMassJ = b.inverseMassJ[k];
-        meeting.inverseMass = b.inverseMassI[k] + b.inverseMassJ[k];
-        meeting.inverseInertiaI = b.inverseInertiaI[k];
-        meeting.inverseInertiaJ = b.inverseInertiaJ[k];
-      }
+      place(law, b, k, bodies, meeting);
+      meeting.velocity = vectorOf(b.velocity[k]);
+      meeting.inverseMass = meeting.inverseMassI + meeting.inverseMassJ;
       SpaceMemory<double> memory{};
-      if (remembers) memory.normal = b.normal.at(k);
-      if (hasSprings(law)) memory.spring = b.spring.at(k);
-      if (law.rolling == RollingLaw::spring) memory.angle = b.angle.at(k);
-      const MeetingForce<double> force = meetingForce(law, SpaceConventions{}, meeting, memory);
-      b.normal.set(k, meeting.normal);
-      b.force.set(k, force.force);
-      b.overlap[k] = meeting.overlap;
+      if (remembersNormal) memory.normal = vectorOf(b.touch[k]);
+      if (hasSprings(law)) memory.spring = vectorOf(b.spring[k]);
+      if (remembersAngle) memory.angle = vectorOf(b.angle[k]);
+      if (remembers(law)) {
+        memory.memory = b.memory[k];
+        memory.rest = b.rest[k];
+      }
+      if (law.cohesion == CohesionLaw::jkr)
+        memory.memory =
+            isBonded(law, meeting.overlap, motionOf(law, meeting).radius, memory.memory);
+      const MeetingForce<double> force = meetingForce(law, how, meeting, memory);
+      deep += isWithin(maxOverlap, meeting, bodies) ? 0 : 1;
+      b.touch[k] = quadOf(meeting.normal, meeting.overlap);
+      b.apart[k] = quadOf(force.force);
       b.normalForce[k] = force.normal;
-      if (friction) {
-        b.tangential.set(k, force.tangential);
-        b.sliding[k] = force.sliding;
+      if (friction) b.velocity[k] = quadOf(force.tangential, force.sliding);
+      if (hasSprings(law)) b.spring[k] = quadOf(memory.spring);
+      if (turns) {
+        b.spinI[k] = quadOf(force.torqueI);
+        b.spinJ[k] = quadOf(force.torqueJ);
       }
-      if (hasSprings(law)) b.spring.set(k, memory.spring);
-      if (law.rotation) {
-        b.torqueI.set(k, force.torqueI);
-        b.torqueJ.set(k, force.torqueJ);
+      if (rolls) b.rolling[k] = quadOf(force.rolling);
+      if (remembersAngle) b.angle[k] = quadOf(memory.angle);
+      if (remembers(law)) {
+        b.memory[k] = memory.memory;
+        b.rest[k] = memory.rest;
       }
-      if (rolls) b.rolling.set(k, force.rolling);
-      if (law.rolling == RollingLaw::spring) b.angle.set(k, memory.angle);
     }
+    report.deep |= deep > 0;
     for (std::size_t k = 0; k < found; ++k) {
       const std::size_t p = near[k];
-      const double smallest = smaller(b.radiusI[k], b.radiusJ[k]);
-      if (!(b.overlap[k] <= maxOverlap * smallest) || !(b.overlap[k] < b.radiusI[k] + b.radiusJ[k]))
-        report.deep = true;
-      pairs.setTouches(p, b.overlap[k] > 0.0, b.radiusI[k] + b.radiusJ[k] + range);
-      if (!(b.overlap[k] > 0.0)) continue;
+      const bool touches =
+          common.cohesion == CohesionLaw::jkr ? b.memory[k] > 0.0 : b.touch[k].w > 0.0;
+      setTouches(all, bodies, range, p, touches);
+      if (!touches) continue;
       ++report.touching;
-      kept.touch[p] = {b.normal.at(k), b.overlap[k], b.normalForce[k]};
-      if (friction) kept.slide[p] = {b.tangential.at(k), b.sliding[k]};
-      if (hasSprings(law)) kept.spring[p] = b.spring.at(k);
-      if (rolls) kept.rolling[p] = b.rolling.at(k);
-      if (law.rolling == RollingLaw::spring) kept.angle[p] = b.angle.at(k);
-      SpacePush force{b.force.at(k), {}, {}};
-      if (law.rotation) force = {b.force.at(k), b.torqueI.at(k), b.torqueJ.at(k)};
-      push(law, all, active, pairs, p, force);
+      kept.touch[p] = b.touch[k];
+      if (hasSprings(common)) kept.spring[p] = b.spring[k];
+      if (remembersAngle) kept.angle[p] = b.angle[k];
+      if (remembers(common)) kept.bond[p] = {b.memory[k], b.rest[k]};
+      if (kept.force != nullptr) {
+        kept.force[p] = b.normalForce[k];
+        if (friction) kept.slide[p] = b.velocity[k];
+        if (rolls) kept.rolling[p] = b.rolling[k];
+      }
+      push(turns, all, active, bodies, p, b, k);
     }
     found = 0;
   }

@@ -120,6 +120,20 @@ struct Meeting {
   Real inverseMassI, inverseMassJ, inverseInertiaI, inverseInertiaJ;
 };
 
+/// Levers and arms of two spheres; and of one on a plane, its centre `height` above it.
+template <class L, class Real>
+GRAIN_INLINE void setArms(const L& law, Meeting<Real>& of) {
+  of.leverI = armOf(law.lever, of.radiusI, of.radiusJ, of.overlap);
+  of.leverJ = armOf(law.lever, of.radiusJ, of.radiusI, of.overlap);
+  of.armI = armOf(law.velocityLever, of.radiusI, of.radiusJ, of.overlap);
+  of.armJ = armOf(law.velocityLever, of.radiusJ, of.radiusI, of.overlap);
+}
+template <class L, class Real>
+GRAIN_INLINE void setArms(const L& law, Meeting<Real>& of, Real height) {
+  of.leverI = planeArmOf(law.lever, law.planeLever, of.radiusI, height);
+  of.armI = planeArmOf(law.velocityLever, law.planeLever, of.radiusI, height);
+}
+
 /// Action on both: force on i, −force on j; torques on each about its own centre.
 template <class Real>
 struct MeetingForce {

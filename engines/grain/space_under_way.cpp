@@ -68,7 +68,7 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
                               std::size_t at, std::uint8_t& touches) {
       const std::int32_t a = idOf(i), b = idOf(static_cast<std::int32_t>(j));
       const auto found = springs.find({std::min(a, b), std::max(a, b)});
-      const Vector normal = touches != 0 ? contacts.touch[at].normal : Vector{};
+      const Vector normal = touches != 0 ? vectorOf(contacts.touch[at]) : Vector{};
       SpaceMemory<double> kept = found == springs.end() ? SpaceMemory<double>{} : found->second;
       kept.normal = normal;
       if (found != springs.end()) touches = 1;  // what it has is kept
@@ -76,7 +76,7 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
         kept.spring = -1.0 * kept.spring;
         kept.angle = -1.0 * kept.angle;
       }
-      contacts.remember(at, kept);
+      contacts.remember(at, kept, contacts.touch[at].w);
     };
     lists_.forNear([&](const SpacePairs& pairs) {
       for (std::size_t p = 0; p < pairs.count; ++p) {
@@ -137,10 +137,34 @@ void Spheres::beginUnderWay(const std::vector<SpaceContact>& forces) {
 Meeting<double> Spheres::meetingOf(const SpaceContact& contact) {
   const std::size_t i = indexOf(static_cast<std::size_t>(contact.i)),
                     j = indexOf(static_cast<std::size_t>(contact.j));
-  if (j < position_.size())
-    return grain::meetingOf(law_, view(shares_[0].active), i, j, contact.normal, contact.overlap);
-  return meetingOn(planes_[j - position_.size()], i,
-                   {contact.normal, position_[i].w - contact.overlap});
+  const SpaceView all = view(shares_[0].active);
+  Meeting<double> meeting{};
+  meeting.normal = contact.normal;
+  meeting.overlap = contact.overlap;
+  meeting.velocity = vectorOf(all.velocity[i]);
+  meeting.radiusI = position_[i].w;
+  meeting.inverseMassI = inverseMass_[i];
+  if (law_.rotation) {
+    meeting.spinI = vectorOf(all.spin[i]);
+    meeting.inverseInertiaI = inverseInertia_[i];
+  }
+  if (j < position_.size()) {
+    meeting.velocity -= vectorOf(all.velocity[j]);
+    meeting.radiusJ = position_[j].w;
+    meeting.inverseMassJ = inverseMass_[j];
+    if (law_.rotation) {
+      meeting.spinJ = vectorOf(all.spin[j]);
+      meeting.inverseInertiaJ = inverseInertia_[j];
+    }
+    setArms(law_, meeting);
+  } else {
+    const double height = position_[i].w - contact.overlap;
+    const SpacePlane plane = viewOf(j - position_.size(), 0, size());
+    meeting.velocity -= plane.velocityAt(law_, position_[i], {contact.normal, height});
+    setArms(law_, meeting, height);
+  }
+  meeting.inverseMass = meeting.inverseMassI + meeting.inverseMassJ;
+  return meeting;
 }
 
 /// Adds a tangential force and a torque against rolling to those of a contact.

@@ -25,6 +25,12 @@ struct Lanes {
   GRAIN_INLINE void store(Quad& quad) const { __builtin_memcpy(&quad, &v, sizeof v); }
   GRAIN_INLINE void operator+=(const Lanes& b) { v += b.v; }
   GRAIN_INLINE void operator-=(const Lanes& b) { v -= b.v; }
+  /// Three of these and the fourth of others.
+  GRAIN_INLINE Lanes withLast(const Lanes& others) const {
+    Lanes both = *this;
+    both.v = __builtin_shufflevector(v, others.v, 0, 1, 2, 7);
+    return both;
+  }
 };
 
 GRAIN_INLINE Vec3<double> vectorOf(const Quad& quad) {
@@ -39,17 +45,26 @@ GRAIN_INLINE void add(Quad& quad, const Vec3<double>& v, double factor) {
   sum += part;
   sum.store(quad);
 }
+GRAIN_INLINE void operator+=(Quad& quad, const Quad& part) {
+  Lanes sum(quad);
+  sum += Lanes(part);
+  sum.store(quad);
+}
+GRAIN_INLINE void operator-=(Quad& quad, const Quad& part) {
+  Lanes difference(quad);
+  difference -= Lanes(part);
+  difference.store(quad);
+}
 
 /// The moving spheres that contacts push: forces on all others are 0, so that they fly straight on.
 struct ActiveSpheres {
-  std::int32_t* list;  ///< in any order, with room for one more than there are
+  std::int32_t* list;  ///< in any order
   std::size_t count;
   std::uint8_t* mark;  ///< pushed in this step: 2; in the one before: 1; neither, not listed: 0
 
   /// @pre a sphere of a wall has a mark > 0, so that it is never listed
   GRAIN_INLINE void push(std::size_t i) {
-    list[count] = static_cast<std::int32_t>(i);
-    count += mark[i] == 0;
+    if (mark[i] == 0) list[count++] = static_cast<std::int32_t>(i);
     mark[i] = 2;
   }
 };
@@ -71,95 +86,67 @@ struct SpaceView {
   }
 };
 
-/// Two spheres. @param normal  from j, or its image, to i
-template <class L>
-GRAIN_INLINE Meeting<double> meetingOf(const L& law, const SpaceView& all, std::size_t i,
-                                       std::size_t j, const Vec3<double>& normal, double overlap) {
-  const double a = all.position[i].w, b = all.position[j].w;
-  Meeting<double> meeting{};
-  meeting.normal = normal;
-  meeting.velocity = vectorOf(all.velocity[i]) - vectorOf(all.velocity[j]);
-  meeting.overlap = overlap;
-  meeting.radiusI = a;
-  meeting.radiusJ = b;
-  meeting.inverseMassI = all.inverseMass[i];
-  meeting.inverseMassJ = all.inverseMass[j];
-  meeting.inverseMass = meeting.inverseMassI + meeting.inverseMassJ;
-  if (!law.rotation) return meeting;
-  meeting.spinI = vectorOf(all.spin[i]);
-  meeting.spinJ = vectorOf(all.spin[j]);
-  meeting.leverI = armOf(law.lever, a, b, overlap);
-  meeting.leverJ = armOf(law.lever, b, a, overlap);
-  meeting.armI = armOf(law.velocityLever, a, b, overlap);
-  meeting.armJ = armOf(law.velocityLever, b, a, overlap);
-  meeting.inverseInertiaI = all.inverseInertia[i];
-  meeting.inverseInertiaJ = all.inverseInertia[j];
-  return meeting;
-}
-
 /// The last step's results for a pair that touched.
 struct SpaceResult {
   double overlap = 0.0, normal = 0.0, sliding = 0.0;
   Vec3<double> tangential{}, rolling{};
 };
 
-// Memory of contacts and the law's last results, in records that a law has or not.
-struct SpaceTouch {
-  Vec3<double> normal;
-  double overlap, force;
-};
-struct SpaceSlide {
-  Vec3<double> force;
-  double slides;
-};
+/// Of CohesionLaw::jkr, or the elasto-plastic.
 struct SpaceBond {
   double memory, rest;
 };
 
-/// One record each a contact; null where the law has no such.
+/// Memory of contacts and the law's last results: of each kind one record a contact; null where the
+/// law has no such.
 struct SpaceContactView {
-  SpaceTouch* touch;
-  SpaceSlide* slide;      ///< of friction
-  Vec3<double>* spring;   ///< ξ
-  Vec3<double>* rolling;  ///< the torque against rolling
-  Vec3<double>* angle;    ///< θ
+  Quad* touch;   ///< the normal of the last step in which it touched; w: the overlap then [m]
+  Quad* spring;  ///< ξ
+  Quad* angle;   ///< θ
   SpaceBond* bond;
+  // Results, which no step needs: null, too, where nobody asks for them.
+  double* force;  ///< f_n
+  Quad* slide;    ///< f_t of friction; w: whether it slides
+  Quad* rolling;  ///< the torque against rolling
 
   GRAIN_INLINE SpaceMemory<double> memory(std::size_t p) const {
-    SpaceMemory<double> kept{.normal = touch[p].normal};
-    if (spring != nullptr) kept.spring = spring[p];
-    if (angle != nullptr) kept.angle = angle[p];
+    SpaceMemory<double> kept{.normal = vectorOf(touch[p])};
+    if (spring != nullptr) kept.spring = vectorOf(spring[p]);
+    if (angle != nullptr) kept.angle = vectorOf(angle[p]);
     if (bond == nullptr) return kept;
     kept.memory = bond[p].memory;
     kept.rest = bond[p].rest;
     return kept;
   }
   GRAIN_INLINE SpaceResult result(std::size_t p) const {
-    SpaceResult result{.overlap = touch[p].overlap, .normal = touch[p].force};
-    if (slide != nullptr) result.tangential = slide[p].force;
-    if (slide != nullptr) result.sliding = slide[p].slides;
-    if (rolling != nullptr) result.rolling = rolling[p];
+    SpaceResult result{.overlap = touch[p].w, .normal = force[p]};
+    if (slide != nullptr) result.tangential = vectorOf(slide[p]);
+    if (slide != nullptr) result.sliding = slide[p].w;
+    if (rolling != nullptr) result.rolling = vectorOf(rolling[p]);
     return result;
   }
-  GRAIN_INLINE void remember(std::size_t p, const SpaceMemory<double>& kept) const {
-    touch[p].normal = kept.normal;
-    if (spring != nullptr) spring[p] = kept.spring;
-    if (angle != nullptr) angle[p] = kept.angle;
+  /// @param overlap  [m]
+  GRAIN_INLINE void remember(std::size_t p, const SpaceMemory<double>& kept, double overlap) const {
+    touch[p] = quadOf(kept.normal, overlap);
+    if (spring != nullptr) spring[p] = quadOf(kept.spring);
+    if (angle != nullptr) angle[p] = quadOf(kept.angle);
     if (bond != nullptr) bond[p] = {kept.memory, kept.rest};
   }
   GRAIN_INLINE void set(std::size_t p, const SpaceMemory<double>& kept,
                         const SpaceResult& result) const {
-    remember(p, kept);
-    touch[p].overlap = result.overlap;
-    touch[p].force = result.normal;
-    if (slide != nullptr) slide[p] = {result.tangential, result.sliding};
-    if (rolling != nullptr) rolling[p] = result.rolling;
+    remember(p, kept, result.overlap);
+    force[p] = result.normal;
+    if (slide != nullptr) slide[p] = quadOf(result.tangential, result.sliding);
+    if (rolling != nullptr) rolling[p] = quadOf(result.rolling);
+  }
+  SpaceContactView withoutResults() const {
+    return {touch, spring, angle, bond, nullptr, nullptr, nullptr};
   }
 };
 
 /// Action of a pair on its spheres: the force on i, and torques about their own centres.
 struct SpacePush {
-  Vec3<double> force, torqueI, torqueJ;
+  Quad force, torqueI, torqueJ;
 };
 
 /// A list of pairs, one entry each.
@@ -176,6 +163,8 @@ struct SpacePairs {
   /// Where a pair that touches leaves what it does, for others to add; null: it is added to both.
   SpacePush* pushes = nullptr;
 
+  std::size_t first() const { return 0; }
+  std::size_t last() const { return count; }
   GRAIN_INLINE const Quad& shift(std::size_t p) const {
     return shifts[static_cast<std::size_t>(shiftOf[p])];
   }
@@ -186,6 +175,46 @@ struct SpacePairs {
   }
 };
 
+/// A plane or a hollow cylinder at this instant, and spheres that may touch it, begin … end−1; of
+/// its contacts one record a sphere.
+struct SpacePlane {
+  Vec3<double> point, normal;           ///< of a cylinder a point of the axis, and its direction
+  double radius;                        ///< of a cylinder; 0: a plane
+  Vec3<double> centre, velocity, spin;  ///< of its wall
+  std::size_t body;                     ///< its number for SpaceView::lawOf()
+  std::size_t begin, end;
+  SpaceContactView contacts;
+  std::uint8_t* touches;
+
+  std::size_t first() const { return begin; }
+  std::size_t last() const { return end; }
+  /// How a sphere lies to it: of a cylinder the normal to the axis, the height R − s.
+  struct Place {
+    Vec3<double> normal;
+    double height;
+  };
+  GRAIN_INLINE Place placeOf(const Quad& sphere) const {
+    const Vec3<double> from = vectorOf(sphere) - point;
+    const double along = dot(from, normal);
+    if (!(radius > 0.0)) return {normal, along};
+    const Vec3<double> aside = from - along * normal;
+    const double distance = length(aside);
+    // On the axis there is no normal, and contact only of a sphere as large as the cylinder.
+    return {either(distance > 0.0, (-1.0 / distance) * aside, {}), radius - distance};
+  }
+  /// From the centre of the wall to where it meets a sphere [m].
+  template <class L>
+  GRAIN_INLINE Vec3<double> armTo(const L& law, const Quad& sphere, const Place& place) const {
+    const double away = planePoint(law, sphere.w, place.height);
+    return vectorOf(sphere) - away * place.normal - centre;
+  }
+  /// Of its point there [m/s].
+  template <class L>
+  GRAIN_INLINE Vec3<double> velocityAt(const L& law, const Quad& sphere, const Place& place) const {
+    return velocity + cross(spin, armTo(law, sphere, place));
+  }
+};
+
 struct SpaceReport {
   std::size_t touching = 0, active = 0;  ///< pairs; spheres listed by now
   bool deep = false;                     ///< some overlap is beyond what is allowed, or no number
@@ -193,9 +222,17 @@ struct SpaceReport {
 
 /// @param range       how far apart bodies may be in contact [m]
 /// @param maxOverlap  in units of the smaller radius
-using SpacePairKernel = SpaceReport (*)(const GeneralLaw<double>&, const SpaceConventions&,
-                                        const SpaceView&, const SpacePairs&, double range,
-                                        double maxOverlap);
+template <class Bodies>
+using SpaceContactKernel = SpaceReport (*)(const GeneralLaw<double>&, const SpaceConventions&,
+                                           const SpaceView&, const Bodies&, double range,
+                                           double maxOverlap);
+
+/// Contact kernels of spheres that meet, or of those at a plane.
+template <class Bodies>
+struct SpaceContactKernels {
+  SpaceContactKernel<Bodies> own[contactVariants];  ///< as Kernels::contacts
+  SpaceContactKernel<Bodies> general;
+};
 
 /// The spheres as their motion sees them. Without rotation spins and torques are null.
 struct SpaceMotionView {
@@ -262,11 +299,10 @@ struct SpaceChoice {
 /// Lists the far pairs that reach each other. @param found  with room for one more
 using SpaceChoiceKernel = std::size_t (*)(const SpaceFarPairs&, SpaceChoice* found);
 
-/// Pair kernels are under the usual SpaceConventions, but for those of any law and of EverydayLaw.
+/// Kernels of laws of their own are under the usual SpaceConventions.
 struct SpaceKernels {
-  SpacePairKernel contacts[contactVariants];  ///< as Kernels::contacts
-  SpacePairKernel generalContacts, everydayContacts;
-  SpacePairKernel generalMaterialContacts, everydayMaterialContacts;
+  SpaceContactKernels<SpacePairs> pairs, materialPairs;
+  SpaceContactKernels<SpacePlane> planes;  ///< of materials or of none
   SpaceMotionKernel motion;
   SpaceNeighbourKernel neighbours;
   SpaceChoiceKernel choose;

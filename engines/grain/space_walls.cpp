@@ -22,7 +22,7 @@ Vector turnedBy(const Vector& angle, const Vector& v) {
 
 void Spheres::moveWalls() {
   const auto cylinders = std::ranges::find_if(planes_, &PlacedPlane::isCylinder);
-  auto plane = planes_.begin(), cylinder = cylinders;
+  auto plane = planes_.begin();
   for (std::size_t w = 0; w < setup_.walls.size(); ++w) {
     const SpaceWall& wall = setup_.walls[w];
     const SpaceWall::State now = wall.motion(time());
@@ -34,10 +34,8 @@ void Spheres::moveWalls() {
     if (wallBegin_[w] < std::min(wallBegin_[w + 1], allowance_.size()) &&
         !(wallPath_[w] <= allowance_[wallBegin_[w]]))
       outdated_ = true;
-    for (; cylinder != planes_.end() && cylinder->wall == w; ++cylinder) cylinder->now = now;
     for (; plane != cylinders && plane->wall == w; ++plane) {
       const SpaceWall::Plane& member = wall.planes[plane->member];
-      plane->now = now;
       plane->point = wallPlace(w, member.point);
       plane->normal = turnedBy(now.angle, member.normal);
     }
@@ -96,66 +94,20 @@ Vector Spheres::wallPosition(std::size_t k) const {
   return wallPlace(w, setup_.walls[w].position[i - wallBegin_[w]]);
 }
 
-/// Contacts of spheres begin … end−1.
-void Spheres::addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std::size_t end) {
-  const SpaceContactView contacts = plane.contacts.view();
-  const SpaceConventions conventions = spaceConventions(setup_.law);
-  for (std::size_t i = begin; i < end; ++i) {
-    const Place place = placeOn(plane, i);
-    const double a = position_[i].w, height = place.height;
-    const GeneralLaw<double>& law = lawOf(plane, i);
-    SpaceMemory<double> kept{};
-    if (plane.touches[i] != 0) kept = contacts.memory(i);
-    bool touches = a - height > 0.0;
-    if (law.cohesion == CohesionLaw::jkr) {
-      kept.memory = isBonded(law, a - height, a, kept.memory);
-      touches = kept.memory > 0.0;
-    }
-    plane.touches[i] = touches;
-    if (!touches) continue;
-    if (setup_.maxOverlap > 0.0 && !(a - height <= setup_.maxOverlap * a)) share.deep = true;
-    ++share.touching;
-    const Meeting<double> meeting = meetingOn(plane, i, place);
-    const MeetingForce<double> force = meetingForce(law, conventions, meeting, kept);
-    contacts.set(i, kept,
-                 {meeting.overlap, force.normal, force.sliding, force.tangential, force.rolling});
-    add(force_[i], force.force, 1.0);
-    if (law_.rotation) add(torque_[i], force.torqueI, 1.0);
-  }
-}
-
-Spheres::Place Spheres::placeOn(const PlacedPlane& plane, std::size_t i) const {
-  const Vector from = vectorOf(position_[i]) - plane.point;
-  const double along = dot(from, plane.normal);
-  if (!plane.isCylinder()) return {plane.normal, along};
-  const Vector aside = from - along * plane.normal;
-  const double distance = length(aside);
-  // On the axis there is no normal, and contact only of a sphere as large as the cylinder.
-  return {distance > 0.0 ? (-1.0 / distance) * aside : Vector{}, plane.radius - distance};
-}
-
-/// From the centre of the plane's wall to where it meets sphere i [m].
-Vector Spheres::armOn(const PlacedPlane& plane, std::size_t i, const Place& place) const {
-  const double away = planePoint(law_, position_[i].w, place.height);
-  return vectorOf(position_[i]) - away * place.normal - plane.now.centre;
-}
-
-Meeting<double> Spheres::meetingOn(const PlacedPlane& plane, std::size_t i,
-                                   const Place& place) const {
-  const double a = position_[i].w, height = place.height;
-  Meeting<double> meeting{};
-  meeting.normal = place.normal;
-  meeting.velocity = vectorOf(seenVelocities()[i]) -
-                     (plane.now.velocity + cross(plane.now.spin, armOn(plane, i, place)));
-  meeting.overlap = a - height;
-  meeting.radiusI = a;
-  meeting.inverseMass = meeting.inverseMassI = inverseMass_[i];
-  if (!law_.rotation) return meeting;
-  meeting.spinI = vectorOf(seenSpins()[i]);
-  meeting.leverI = planeArmOf(law_.lever, law_.planeLever, a, height);
-  meeting.armI = planeArmOf(law_.velocityLever, law_.planeLever, a, height);
-  meeting.inverseInertiaI = inverseInertia_[i];
-  return meeting;
+SpacePlane Spheres::viewOf(std::size_t plane, std::size_t begin, std::size_t end) {
+  PlacedPlane& own = planes_[plane];
+  const SpaceWall::State& now = wallNow_[own.wall];
+  return {own.point,
+          own.normal,
+          own.radius,
+          now.centre,
+          now.velocity,
+          now.spin,
+          position_.size() + plane,
+          begin,
+          end,
+          own.contacts.view(),
+          own.touches.data()};
 }
 
 std::pair<Vector, Vector> Spheres::wallLoad(std::size_t w) const {
@@ -166,15 +118,16 @@ std::pair<Vector, Vector> Spheres::wallLoad(std::size_t w) const {
     torque += cross(vectorOf(position_[i]) - centre, vectorOf(force_[i])) +
               (law_.rotation ? vectorOf(torque_[i]) : Vector{});
   }
-  for (const PlacedPlane& plane : planes_) {
-    if (plane.wall != w) continue;
-    const SpaceContactView contacts = const_cast<PlacedPlane&>(plane).contacts.view();
+  for (std::size_t p = 0; p < planes_.size(); ++p) {
+    if (planes_[p].wall != w) continue;
+    const SpacePlane plane = const_cast<Spheres*>(this)->viewOf(p, 0, size());
     for (std::size_t i = 0; i < size(); ++i) {
       if (plane.touches[i] == 0) continue;
-      const SpaceResult result = contacts.result(i);
-      const Vector push = result.normal * contacts.touch[i].normal + result.tangential;
+      const SpaceResult result = plane.contacts.result(i);
+      const Vector push = result.normal * vectorOf(plane.contacts.touch[i]) + result.tangential;
       force -= push;
-      torque -= cross(armOn(plane, i, placeOn(plane, i)), push) + result.rolling;
+      torque -= cross(plane.armTo(law_, position_[i], plane.placeOf(position_[i])), push) +
+                result.rolling;
     }
   }
   return {force, torque};

@@ -29,19 +29,13 @@ void demand(bool holds, const char* what) {
 }
 
 /// The fastest that a law has.
-SpacePairKernel pairKernelOf(const SpaceKernels& all, const GeneralLaw<double>& law,
-                             const SpheresSetup& setup) {
-  const bool materials = setup.materials.has_value();
+template <class Bodies>
+SpaceContactKernel<Bodies> kernelOf(const SpaceContactKernels<Bodies>& all,
+                                    const GeneralLaw<double>& law, const SpheresSetup& setup) {
   const auto variant = contactVariant(law);
-  if (variant && !setup.generalKernels && !materials &&
-      spaceConventions(setup.law) == SpaceConventions{})
-    if (const auto own = kernelOf(all.contacts, *variant)) return own;
-  const bool everyday = law.normal == NormalLaw::linear && law.damper == Damper::constant &&
-                        law.normalDamping && law.tangential == TangentialLaw::springDashpot &&
-                        law.rotation && law.rolling == RollingLaw::none &&
-                        law.cohesion == CohesionLaw::none && !setup.generalKernels;
-  if (materials) return everyday ? all.everydayMaterialContacts : all.generalMaterialContacts;
-  return everyday ? all.everydayContacts : all.generalContacts;
+  if (variant && !setup.generalKernels && spaceConventions(setup.law) == SpaceConventions{})
+    if (const auto own = kernelOf(all.own, *variant)) return own;
+  return all.general;
 }
 
 bool pushesMoreThanPairs(const SpheresSetup& setup) {
@@ -87,7 +81,8 @@ Spheres::Spheres(SpheresSetup setup)
       team_(std::make_unique<ThreadTeam>(shares_.size())) {
   demand(setup_.dt > 0.0, "the time step must be > 0 s");
   demand(setup_.law.normal != NormalLaw::rigid, "spheres have no impulses");
-  pairs_ = pairKernelOf(kernels_, law_, setup_);
+  pairKernel_ = kernelOf(laws_.empty() ? kernels_.pairs : kernels_.materialPairs, law_, setup_);
+  planeKernel_ = kernelOf(kernels_.planes, law_, setup_);
   placeSpheres();
   moveWalls();
   updateNeighbours();
@@ -129,11 +124,11 @@ void Spheres::placeSpheres() {
     }
     wallReach_.push_back(arm);
     for (std::size_t member = 0; member < wall.planes.size(); ++member)
-      planes_.push_back({w, member, 0.0, {}, {}, {}, SpaceContacts(records)});
+      planes_.push_back({w, member, 0.0, {}, {}, SpaceContacts(records)});
   }
   for (std::size_t w = 0; w < setup_.walls.size(); ++w)
     for (const SpaceWall::Cylinder& each : setup_.walls[w].cylinders)
-      planes_.push_back({w, 0, each.radius, {}, each.point, each.axis, SpaceContacts(records)});
+      planes_.push_back({w, 0, each.radius, each.point, each.axis, SpaceContacts(records)});
   for (PlacedPlane& plane : planes_) {
     plane.contacts.resize(size());
     plane.touches.resize(size());
@@ -156,7 +151,7 @@ void Spheres::placeSpheres() {
       material_.push_back(setup_.materials->ofWall[plane.wall]);
   }
   indexOfId_.resize(size());
-  activeList_.resize(size() + shares_.size());
+  activeList_.resize(size());
   mark_.assign(position_.size(), 2);
   if (predicts) {
     seenVelocity_ = velocity_;
@@ -169,7 +164,7 @@ void Spheres::placeSpheres() {
 /// Rebuilds all that follows from which sphere is where.
 void Spheres::followNumbers() {
   for (std::size_t part = 0; part < shares_.size(); ++part)
-    shares_[part].active = {activeList_.data() + lists_.partBegin(part) + part, 0, mark_.data()};
+    shares_[part].active = {activeList_.data() + lists_.partBegin(part), 0, mark_.data()};
   together([&](Share& share, std::size_t i, std::size_t end) {
     for (; i < end; ++i)
       if (mark_[i] != 0) share.active.list[share.active.count++] = static_cast<std::int32_t>(i);
@@ -221,7 +216,10 @@ Vector Spheres::spin(std::size_t id) const {
 }
 
 void Spheres::advance(std::uint64_t steps) {
-  for (; steps > 0; --steps) step();
+  for (; steps > 0; --steps) {
+    asked_ = steps == 1;
+    team_->step([this] { step(); });
+  }
 }
 
 void Spheres::kick(double dt) {
@@ -349,10 +347,11 @@ void Spheres::addForces() {
   }
   const auto begin = std::chrono::steady_clock::now();
   if (shares_.size() > 1)
-    team_->run([&](std::size_t part) { addPairs(shares_[part], lists_.across(part)); });
+    team_->run(
+        [&](std::size_t part) { addContacts(shares_[part], pairKernel_, lists_.across(part)); });
   team_->run([&](std::size_t part) {
     addFromLowerParts(part);
-    addPairs(shares_[part], lists_.inside(part));
+    addContacts(shares_[part], pairKernel_, lists_.inside(part));
     addFromHigherParts(part);
   });
   std::size_t touching = 0;
@@ -364,7 +363,8 @@ void Spheres::addForces() {
   if (!planes_.empty())
     together([&](Share& share, std::size_t first, std::size_t end) {
       share.touching = 0;
-      for (PlacedPlane& plane : planes_) addPlane(plane, share, first, end);
+      for (std::size_t p = 0; p < planes_.size(); ++p)
+        addContacts(share, planeKernel_, viewOf(p, first, end));
     });
   for (const Share& share : shares_) {
     if (!planes_.empty()) evaluations_ += share.touching;
@@ -372,10 +372,12 @@ void Spheres::addForces() {
   }
 }
 
-void Spheres::addPairs(Share& share, const SpacePairs& pairs) {
+void Spheres::addContacts(Share& share, const auto& kernel, const auto& bodies) {
+  auto asked = bodies;
+  if (!asked_) asked.contacts = bodies.contacts.withoutResults();
   const double most = setup_.maxOverlap > 0.0 ? setup_.maxOverlap : 1e300;
   const SpaceReport report =
-      pairs_(law_, spaceConventions(setup_.law), view(share.active), pairs, range_, most);
+      kernel(law_, spaceConventions(setup_.law), view(share.active), asked, range_, most);
   share.active.count = report.active;
   share.touching += report.touching;
   share.deep |= report.deep;
@@ -389,8 +391,8 @@ void Spheres::addFromLowerParts(std::size_t part) {
       const auto j = static_cast<std::size_t>(pairs.j[p]);
       if (pairs.touches[p] == 0 || j < lists_.partBegin(part) || !lists_.isUpTo(part, j)) continue;
       active.push(j);
-      add(force_[j], pairs.pushes[p].force, -1.0);
-      if (law_.rotation) add(torque_[j], pairs.pushes[p].torqueJ, 1.0);
+      force_[j] -= pairs.pushes[p].force;
+      if (law_.rotation) torque_[j] += pairs.pushes[p].torqueJ;
     }
   }
 }
@@ -402,8 +404,8 @@ void Spheres::addFromHigherParts(std::size_t part) {
     if (pairs.touches[p] == 0) continue;
     const auto i = static_cast<std::size_t>(pairs.i[p]);
     active.push(i);
-    add(force_[i], pairs.pushes[p].force, 1.0);
-    if (law_.rotation) add(torque_[i], pairs.pushes[p].torqueI, 1.0);
+    force_[i] += pairs.pushes[p].force;
+    if (law_.rotation) torque_[i] += pairs.pushes[p].torqueI;
   }
 }
 
@@ -445,14 +447,14 @@ std::vector<SpaceContact> Spheres::contacts() {
   lists_.forNear([&](const SpacePairs& pairs) {
     for (std::size_t p = 0; p < pairs.count; ++p)
       if (pairs.touches[p] != 0)
-        add(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), pairs.contacts.touch[p].normal,
+        add(pairs.i[p], static_cast<std::size_t>(pairs.j[p]), vectorOf(pairs.contacts.touch[p]),
             pairs.contacts.result(p));
   });
   for (std::size_t p = 0; p < planes_.size(); ++p) {
     const SpaceContactView contacts = planes_[p].contacts.view();
     for (std::size_t i = 0; i < size(); ++i)
       if (planes_[p].touches[i] != 0)
-        add(static_cast<std::int32_t>(i), position_.size() + p, contacts.touch[i].normal,
+        add(static_cast<std::int32_t>(i), position_.size() + p, vectorOf(contacts.touch[i]),
             contacts.result(i));
   }
   std::ranges::sort(found, {}, [](const SpaceContact& c) { return std::pair(c.i, c.j); });

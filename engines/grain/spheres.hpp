@@ -122,12 +122,12 @@ class Spheres {
     std::size_t touching = 0;  ///< in this step
     bool deep = false;         ///< some overlap is beyond what is allowed
   };
-  /// A plane or a cylinder at this instant, and what its contacts remember, one a sphere.
+  /// A plane or a cylinder, and what its contacts remember, one a sphere.
   struct PlacedPlane {
     std::size_t wall, member;
-    double radius;               ///< of a cylinder; 0: a plane
-    SpaceWall::State now;        ///< of the wall
-    Vec3<double> point, normal;  ///< of a cylinder a point of the axis, and its direction
+    double radius;  ///< of a cylinder; 0: a plane
+    Vec3<double> point,
+        normal;  ///< at this instant; of a cylinder a point of the axis, and its direction
     SpaceContacts contacts;
     std::vector<std::uint8_t> touches{};
 
@@ -165,9 +165,6 @@ class Spheres {
     return laws_[static_cast<std::size_t>(material_[i]) * count +
                  static_cast<std::size_t>(material_[body])];
   }
-  const GeneralLaw<double>& lawOf(const PlacedPlane& plane, std::size_t i) const {
-    return lawOf(i, position_.size() + static_cast<std::size_t>(&plane - planes_.data()));
-  }
   void forLaws(auto&& visit) {
     visit(law_);
     for (GeneralLaw<double>& law : laws_) visit(law);
@@ -196,17 +193,10 @@ class Spheres {
   void rememberChoice();
   void beginForces();
   void addForces();
-  void addPairs(Share& share, const SpacePairs& pairs);
+  void addContacts(Share& share, const auto& kernel, const auto& bodies);
   void addFromLowerParts(std::size_t part);
   void addFromHigherParts(std::size_t part);
-  /// How a sphere lies to it: of a cylinder the normal to the axis, the height R − s.
-  struct Place {
-    Vec3<double> normal;
-    double height;
-  };
-  Place placeOn(const PlacedPlane& plane, std::size_t i) const;
-  Meeting<double> meetingOn(const PlacedPlane& plane, std::size_t i, const Place& place) const;
-  Vec3<double> armOn(const PlacedPlane& plane, std::size_t i, const Place& place) const;
+  SpacePlane viewOf(std::size_t plane, std::size_t begin, std::size_t end);
   Meeting<double> meetingOf(const SpaceContact& contact);
   void addLacking(const SpaceContact& contact, const Vec3<double>& force,
                   const Vec3<double>& torque);
@@ -218,7 +208,6 @@ class Spheres {
                                            const Meeting<double>& meeting) const;
   Vec3<double> springFor(const GeneralLaw<double>& law, const Meeting<double>& meeting,
                          const SpaceContact& want, double unit) const;
-  void addPlane(PlacedPlane& plane, Share& share, std::size_t begin, std::size_t end);
   std::string nameOfPlane(std::size_t p) const;  ///< "cylinder 0"
   [[noreturn]] void reportDeep();
 
@@ -228,11 +217,13 @@ class Spheres {
   std::vector<GeneralLaw<double>> laws_;  ///< of two materials each; empty: law_ is that of all
   std::vector<std::int32_t> material_;    ///< by index, then of planes and cylinders
   SpaceKernels kernels_;
-  SpacePairKernel pairs_;
+  SpaceContactKernel<SpacePairs> pairKernel_;
+  SpaceContactKernel<SpacePlane> planeKernel_;
   double halfKick_ = 0.0;  ///< by which velocities are behind positions [s]
   double range_;           ///< how far apart bodies may be in contact [m]
   std::uint64_t steps_ = 0, chosenAt_ = 0, evaluations_ = 0;
   bool outdated_ = true, sampled_ = false;
+  bool asked_ = true;  ///< somebody may look at the results of contacts after this step
   /// Something besides pairs pushes: gravity, a plane or a cylinder.
   bool everyone_;
   double freeUntil_ = 0.0;  ///< the last step for which spheres that nothing pushes have allowance

@@ -383,7 +383,7 @@ TEST(GrainKernels, ConventionsOfACaseThatNamesNone_HaveTheirOwnInBothDimensions)
   const auto kernels = grain::kernels<double>();
   EXPECT_NE(kernels.contacts[*variant], nullptr);
   EXPECT_NE(kernels.planes[*variant], nullptr);
-  EXPECT_NE(kernels.space.contacts[*variant], nullptr);
+  EXPECT_NE(kernels.space.pairs.own[*variant], nullptr);
 }
 
 }  // namespace

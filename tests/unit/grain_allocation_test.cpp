@@ -216,7 +216,7 @@ TEST(SpaceAbsentEffects, FrictionlessScenes_HoldNeitherSlipNorSpins) {
   const std::size_t slipping = bytesHeld<Spheres>(setup);
   setup.law.tangential = TangentialLaw::none;
   const std::size_t without = bytesHeld<Spheres>(setup);
-  EXPECT_GE(slipping, without + contacts * sizeof(SpaceSlide));
+  EXPECT_GE(slipping, without + contacts * sizeof(Quad));
   setup.rotation = true;  // nothing would turn them
   EXPECT_EQ(bytesHeld<Spheres>(setup), without);
   setup.law.tangential = TangentialLaw::springDashpot;

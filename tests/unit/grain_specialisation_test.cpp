@@ -222,40 +222,85 @@ TEST(Specialisation, EveryLawInThePlane_GivesTheBitsOfTheGeneralKernel) {
   }
 }
 
-/// @return contacts seen, and those of them that slid
-std::array<std::size_t, 2> expectBitsOfTheGeneralKernel(SpheresSetup setup) {
+/// Contacts that were seen.
+struct Met {
+  std::size_t contacts = 0, sliding = 0, walls = 0;  ///< walls: planes and cylinders
+};
+
+Met expectBitsOfTheGeneralKernel(SpheresSetup setup) {
   Spheres special(setup);
   setup.generalKernels = true;
   Spheres general(setup);
-  std::array<std::size_t, 2> found{};
+  Met met;
   for (int piece = 0; piece < 6; ++piece) {
     special.advance(10);
     general.advance(10);
     for (const SpaceContact& contact : special.contacts()) {
-      ++found[0];
-      found[1] += contact.sliding;
+      ++met.contacts;
+      met.sliding += contact.sliding;
+      met.walls += static_cast<std::size_t>(contact.j) >= special.size() + special.wallSpheres();
     }
-    EXPECT_TRUE(test::bitsOf(special, 2) == test::bitsOf(general, 2)) << piece;
+    EXPECT_TRUE(test::bitsOf(special, setup.walls.size()) ==
+                test::bitsOf(general, setup.walls.size()))
+        << piece;
   }
-  return found;
+  return met;
+}
+
+/// Of two materials, in turn, and walls of the second.
+void mix(SpheresSetup& setup) {
+  ContactLaw other = setup.law;
+  for (double* constant : {&other.kn, &other.gn, &other.kt, &other.gt, &other.kr, &other.kc})
+    *constant *= 0.7;
+  other.mu *= 0.5;
+  setup.materials = Materials{std::vector<std::int32_t>(setup.radius.size()),
+                              std::vector<std::int32_t>(setup.walls.size(), 1),
+                              2,
+                              {setup.law, other, other, other}};
+  for (std::size_t i = 0; i < setup.radius.size(); i += 2) setup.materials->ofDisk[i] = 1;
+}
+
+/// A plane that slides under the lowest spheres, and a cylinder about its axis that turns.
+void enclose(SpheresSetup& setup) {
+  grain::SpaceWall floor, shell;
+  floor.planes.push_back({{0.0, 0.0, 1.1 * test::sphereRadius}, {0.0, 0.0, 1.0}});
+  floor.motion = [](double t) {
+    return grain::SpaceWall::State{{0.3 * t, 0.0, 0.0}, {0.3, 0.0, 0.0}};
+  };
+  const double half = 0.5 * setup.box->length.x;
+  shell.cylinders.push_back({{half, half, 0.0}, {0.0, 0.0, 1.0}, 1.45 * half});
+  shell.motion = [half](double t) {
+    return grain::SpaceWall::State{{half, half, 0.0}, {}, {0.0, 0.0, 20.0 * t}, {0.0, 0.0, 20.0}};
+  };
+  setup.walls.push_back(floor);
+  setup.walls.push_back(shell);
 }
 
 TEST(Specialisation, EveryLawInSpace_GivesTheBitsOfTheGeneralKernel) {
   const auto kernels = grain::kernels<double>().space;
-  for (const Special& special : specialLaws(test::springLaw(), test::sphereRadius)) {
-    SCOPED_TRACE(special.name);
-    SpheresSetup setup = test::pressed(special.law);
-    setup.law.conventions.dampingVelocity = DampingVelocity::lagged;
-    setup.rotation = special.rotation;
-    const auto variant = contactVariant(generalLaw<double>(setup.law, setup.dt, special.rotation));
-    ASSERT_TRUE(variant);
-    EXPECT_EQ(kernelOf(kernels.contacts, *variant) != nullptr, hasKernels(*variant));
-    const auto [contacts, sliding] = expectBitsOfTheGeneralKernel(setup);
-    EXPECT_GT(contacts, 200u);
-    if (setup.law.tangential != TangentialLaw::springDashpot) continue;
-    EXPECT_GT(sliding, 0u);
-    EXPECT_LT(sliding, contacts);
-  }
+  for (const Special& special : specialLaws(test::springLaw(), test::sphereRadius))
+    for (const auto& [enclosed, mixed] :
+         {std::pair(false, false), std::pair(true, false), std::pair(true, true)}) {
+      SCOPED_TRACE(std::string(special.name) + (enclosed ? ", enclosed" : "") +
+                   (mixed ? ", mixed" : ""));
+      SpheresSetup setup = test::pressed(special.law);
+      setup.law.conventions.dampingVelocity = DampingVelocity::lagged;
+      setup.rotation = special.rotation;
+      if (enclosed) enclose(setup);
+      if (mixed) mix(setup);
+      const auto variant =
+          contactVariant(generalLaw<double>(setup.law, setup.dt, special.rotation));
+      ASSERT_TRUE(variant);
+      EXPECT_EQ(kernelOf(kernels.pairs.own, *variant) != nullptr, hasKernels(*variant));
+      EXPECT_EQ(kernelOf(kernels.materialPairs.own, *variant) != nullptr, hasKernels(*variant));
+      EXPECT_EQ(kernelOf(kernels.planes.own, *variant) != nullptr, hasKernels(*variant));
+      const Met met = expectBitsOfTheGeneralKernel(setup);
+      EXPECT_GT(met.contacts, 200u);
+      EXPECT_EQ(met.walls > 50u, enclosed);
+      if (setup.law.tangential != TangentialLaw::springDashpot) continue;
+      EXPECT_GT(met.sliding, 0u);
+      EXPECT_LT(met.sliding, met.contacts);
+    }
 }
 
 TEST(Specialisation, MirrorsInSpace_GiveTheBitsOfTheGeneralKernel) {
@@ -270,7 +315,7 @@ TEST(Specialisation, MirrorsInSpace_GiveTheBitsOfTheGeneralKernel) {
                                   std::vector<ContactLaw>(4, setup.law)};
       setup.materials->laws[3].mu = 0.1;
     }
-    EXPECT_GT(expectBitsOfTheGeneralKernel(setup)[0], 200u);
+    EXPECT_GT(expectBitsOfTheGeneralKernel(setup).contacts, 200u);
   }
 }
 
