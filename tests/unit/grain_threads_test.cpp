@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include "engines/grain/thread_team.hpp"
 #include "tests/unit/grain_packed.hpp"
@@ -39,6 +42,28 @@ TEST(ThreadTeam, ThrowsWhatTheLowestPartThrewAndGoesOn) {
     team.run([&](std::size_t) { ++done; });
     EXPECT_EQ(done, 4);
   }
+}
+
+/// @return how many threads share the steps once both ways have been tried
+std::size_t threadsChosen(ThreadTeam& team, const auto& work) {
+  for (int step = 0; step < 70; ++step) team.step([&] { team.run(work); });
+  std::array<std::thread::id, 2> by;
+  team.step([&] { team.run([&](std::size_t part) { by[part] = std::this_thread::get_id(); }); });
+  EXPECT_EQ(by[0], std::this_thread::get_id());
+  return by[0] == by[1] ? 1 : 2;
+}
+
+TEST(ThreadTeam, SharesStepsOutWhereThatTakesLessTime) {
+  using namespace std::chrono_literals;
+  ThreadTeam slow(2), quick(2);
+  EXPECT_EQ(threadsChosen(slow, [](std::size_t) { std::this_thread::sleep_for(1ms); }), 2u);
+  const auto caller = std::this_thread::get_id();
+  EXPECT_EQ(threadsChosen(quick,
+                          [caller](std::size_t) {  // the other thread is one that has to wait
+                            if (std::this_thread::get_id() != caller)
+                              std::this_thread::sleep_for(1ms);
+                          }),
+            1u);
 }
 
 class Threads : public testing::TestWithParam<Precision> {
