@@ -74,7 +74,7 @@ SpaceCells::Cell SpaceCells::cellOf(const Quad& inBox) const {
 void SpaceCells::sort(std::span<const Quad> position, double size) {
   const std::size_t all = position.size();
   winding_.resize(all);
-  place_.resize(all);
+  place_.resize(all + spareOfSorted);
   cellOf_.resize(all);
   sorted_.resize(all);
   begin_.assign(2, 0);

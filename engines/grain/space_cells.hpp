@@ -59,7 +59,7 @@ class SpaceCells {
   Cell count_{1, 1, 1};
   Vec3<double> low_, size_;
   std::vector<Cell> cellOf_;
-  Array<Quad> winding_, place_;  ///< place_: of the sorted
+  Array<Quad> winding_, place_;  ///< place_: of the sorted, and spares
   std::vector<std::int32_t> begin_, sorted_;
 };
 

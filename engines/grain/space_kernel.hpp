@@ -404,35 +404,41 @@ struct Images {
 
   GRAIN_INLINE Images(const Lanes& apart, const Lanes& half)
       : up(apart.v > half.v), down(apart.v < -half.v) {}
-  /// x_i − x_j − shift to the nearest image.
-  GRAIN_INLINE void reduce(Lanes& apart, const Lanes& length) const {
-    const Whole sides = reinterpret_cast<Whole>(length.v);
-    apart.v -= reinterpret_cast<Lanes::Four>(up & sides);
-    apart.v += reinterpret_cast<Lanes::Four>(down & sides);
-  }
   GRAIN_INLINE std::int32_t number() const {
     const Whole weights{1, 3, 9, 0}, each = (up & weights) - (down & weights);
     return static_cast<std::int32_t>(13 + each[0] + each[1] + each[2]);
   }
 };
 
+/// A component of x_i − x_j − shift to the nearest image.
+GRAIN_INLINE double nearest(double apart, double length, double half) {
+  return apart - (apart > half ? length : 0.0) + (apart < -half ? length : 0.0);
+}
+
 static inline std::size_t neighbourKernel(const SpaceCellsView& view, const Quad& mine,
                                           std::int32_t i, std::size_t begin, std::size_t end,
                                           double reach, SpaceNeighbour* found) {
   const SpaceCellsView cells = view;
-  const Lanes own(mine), length(cells.length), half(cells.half);
+  const Quad box = cells.length, sides = cells.half;
   std::size_t count = 0;
-  for (std::size_t k = begin; k < end; ++k) {
-    const Quad& other = cells.place[k];
-    Lanes apart = own;
-    apart -= Lanes(other);
-    const Images images(apart, half);
-    images.reduce(apart, length);
-    apart.v *= apart.v;
-    const double within = mine.w + other.w + reach;
-    found[count].j = static_cast<std::int32_t>(k);
-    count += sumOfThree(apart) < within * within && cells.sorted[k] > i;
+  for (std::size_t first = begin; first < end; first += spareOfSorted) {
+    const Quad* const place = cells.place + first;
+    double room[spareOfSorted];
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < spareOfSorted; ++k) {
+      const Vec3<double> apart = {nearest(mine.x - place[k].x, box.x, sides.x),
+                                  nearest(mine.y - place[k].y, box.y, sides.y),
+                                  nearest(mine.z - place[k].z, box.z, sides.z)};
+      const double within = mine.w + place[k].w + reach;
+      room[k] = within * within - dot(apart, apart);
+    }
+    const std::size_t some = smaller(spareOfSorted, end - first);
+    for (std::size_t k = 0; k < some; ++k) {
+      found[count].j = static_cast<std::int32_t>(first + k);
+      count += room[k] > 0.0 && cells.sorted[first + k] > i;
+    }
   }
+  const Lanes own(mine), half(cells.half);
   for (std::size_t n = 0; n < count; ++n) {
     const auto k = static_cast<std::size_t>(found[n].j);
     Lanes apart = own;

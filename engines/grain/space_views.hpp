@@ -264,9 +264,12 @@ struct SpaceMotionReport {
 using SpaceMotionKernel = SpaceMotionReport (*)(const SpaceMotionConstants&, const SpaceMotionView&,
                                                 std::size_t begin, std::size_t end);
 
+/// How many are looked at side by side, so that some beyond the last may be.
+inline constexpr std::size_t spareOfSorted = 8;
+
 /// Spheres sorted by cells, inside the box.
 struct SpaceCellsView {
-  const Quad* place;  ///< w: the radius
+  const Quad* place;  ///< w: the radius; with spares
   const std::int32_t* sorted;
   Quad length, half;  ///< of the box; 0 and infinite where it is not periodic
 };
