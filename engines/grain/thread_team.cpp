@@ -1,6 +1,6 @@
 #include "engines/grain/thread_team.hpp"
 
-#include <algorithm>
+#include <utility>
 
 namespace grain {
 namespace {
@@ -32,21 +32,14 @@ ThreadTeam::~ThreadTeam() {
   round_.notify_all();
 }
 
-/// Tries a number of steps together, then as many alone; the median tells, which neither a rebuild
-/// of lists nor another program's moment changes.
+/// Keeps to what took less when last tried, and tries the other from time to time. Means, as what
+/// others take of a processor is seldom and long.
 void ThreadTeam::took(double seconds) {
-  const std::size_t now = tried_++;
-  if (now < 2 * trial) seconds_[now % trial] = seconds;
-  if (now + 1 == trial || now + 1 == 2 * trial) {
-    const auto middle = seconds_.begin() + trial / 2;
-    std::nth_element(seconds_.begin(), middle, seconds_.end());
-    alone_ = now + 1 == trial || *middle < together_;
-    if (now + 1 == trial) together_ = *middle;
-  }
-  if (now + 1 == between) {
-    alone_ = false;
-    tried_ = 0;
-  }
+  sum_ += seconds;
+  if (++steps_ % trial != 0) return;
+  (alone_ ? aloneTook_ : togetherTook_) = std::exchange(sum_, 0.0);
+  alone_ = aloneTook_ < togetherTook_;  // at first it is 0
+  if (steps_ % (trial * retried) == 0) alone_ = !alone_;
 }
 
 void ThreadTeam::runTask(const Task& task) {

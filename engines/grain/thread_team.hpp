@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -48,7 +47,7 @@ class ThreadTeam {
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::size_t trial = 33, between = 4096;  ///< [steps]
+  static constexpr std::size_t trial = 64, retried = 32;  ///< [steps], [trials]
 
   /// A std::function would allocate for all but the smallest lambda, twice a step.
   struct Task {
@@ -65,10 +64,9 @@ class ThreadTeam {
   Task task_{};
   std::atomic<std::uint32_t> round_{0}, pending_{0};
   std::atomic<bool> stop_{false};
-  bool alone_ = false;     ///< the calling thread does all parts
-  std::size_t tried_ = 0;  ///< steps since both began to be tried
-  std::array<double, trial> seconds_{};
-  double together_ = 0.0;  ///< a step of the trial [s]
+  bool alone_ = false;  ///< the calling thread does all parts
+  std::size_t steps_ = 0;
+  double sum_ = 0.0, aloneTook_ = 0.0, togetherTook_ = 0.0;  ///< of a trial [s]
   std::vector<std::exception_ptr> thrown_;
   std::vector<std::jthread> threads_;
 };

@@ -46,7 +46,7 @@ TEST(ThreadTeam, ThrowsWhatTheLowestPartThrewAndGoesOn) {
 
 /// @return how many threads share the steps once both ways have been tried
 std::size_t threadsChosen(ThreadTeam& team, const auto& work) {
-  for (int step = 0; step < 70; ++step) team.step([&] { team.run(work); });
+  for (int step = 0; step < 130; ++step) team.step([&] { team.run(work); });
   std::array<std::thread::id, 2> by;
   team.step([&] { team.run([&](std::size_t part) { by[part] = std::this_thread::get_id(); }); });
   EXPECT_EQ(by[0], std::this_thread::get_id());
