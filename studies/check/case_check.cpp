@@ -31,7 +31,7 @@ using nlohmann::json;
 
 namespace {
 
-/// The scene that engines are asked about, and that they are timed on.
+/// The scene that engines are timed on, and asked about.
 template <int D>
 struct Probe {
   SceneOf<D> scene;
@@ -52,6 +52,20 @@ Probe<2> cellProbe(const Case& setup, double dt) {
     return {couetteScene(setup, *kept, dt), "packing 0, from the cache"};
   return {couetteScene(setup, madeUpPacking(setup), dt),
           "a made-up square lattice, four contacts a disk", false};
+}
+
+/// The scene with the case's disks, where those of the probe were made smaller to have room: what
+/// engines say of a scene goes by sizes.
+template <int D>
+SceneOf<D> askedScene(const Case& setup, const Probe<D>& probe) {
+  SceneOf<D> asked = probe.scene;
+  if constexpr (D == 2)
+    if (!probe.prepared) {
+      const Disks kinds = diskKinds(couetteIn(setup).particles);
+      asked.disks.radius = kinds.radius;
+      asked.disks.inertia = kinds.inertia;
+    }
+  return asked;
 }
 
 /// A flow as the in-house engine has it halfway through, or after a second of its time: at its
@@ -113,8 +127,8 @@ double alone(const StepCost& step) {
 }
 
 template <int D>
-json suitability(const EngineEntry& entry, const Case& setup, const SceneOf<D>& scene, bool timed,
-                 const std::filesystem::path& scratch) {
+json suitability(const EngineEntry& entry, const Case& setup, const SceneOf<D>& asked,
+                 const SceneOf<D>& scene, bool timed, const std::filesystem::path& scratch) {
   json row = {
       {"name", entry.name}, {"mirrors", entry.mirrors},    {"can", true},
       {"reason", ""},       {"deviations", json::array()}, {"not_simulated", json::array()}};
@@ -122,8 +136,8 @@ json suitability(const EngineEntry& entry, const Case& setup, const SceneOf<D>& 
     // Times and memory are those of a process that does nothing else.
     const auto engine = timed ? startNew(entry, scratch, setup.run.timeout)
                               : startEngine(entry, scratch, setup.run.timeout);
-    checkSuitable(*engine, entry, setup, scene);
-    const Suitability found = suitabilityOf(*engine, entry, setup, scene);
+    checkSuitable(*engine, entry, setup, asked);
+    const Suitability found = suitabilityOf(*engine, entry, setup, asked);
     row["deviations"] = found.deviations;
     row["not_simulated"] = found.notSimulated;
     if (found.dt) row["dt_s"] = *found.dt;
@@ -236,6 +250,7 @@ json checkedIn(const Case& setup, const std::vector<std::string>& names, bool ti
   if (!couette) requireStableStep(setup, {});
   const Probe<D> probe = probeOf<D>(setup, timed);
   const SceneOf<D>& scene = probe.scene;
+  const SceneOf<D> asked = askedScene(setup, probe);
   double fraction = 0.0;
   if constexpr (D == 2)
     if (couette) {
@@ -271,7 +286,8 @@ json checkedIn(const Case& setup, const std::vector<std::string>& names, bool ti
   for (std::size_t k = 0; k < entries.size(); ++k) {
     throwIfInterrupted();
     progress.update(k, entries[k].name, 0.0);
-    result["engines"].push_back(suitability(entries[k], setup, scene, timed && flows, scratch));
+    result["engines"].push_back(
+        suitability(entries[k], setup, asked, scene, timed && flows, scratch));
     progress.finish(k, entries[k].name);
   }
   if (setup.region) {
