@@ -21,7 +21,7 @@ import pathlib
 
 import numpy as np
 
-__version__ = "0.3.0"  # that of CMakeLists.txt
+__version__ = "1.0.0"  # that of CMakeLists.txt
 SCHEMA = "crossgrain-results-1"
 
 
