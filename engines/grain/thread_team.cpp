@@ -1,5 +1,6 @@
 #include "engines/grain/thread_team.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace grain {
@@ -21,7 +22,11 @@ void waitWhile(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
 
 }  // namespace
 
-ThreadTeam::ThreadTeam(std::size_t parts) : thrown_(parts) {
+double ThreadTeam::steadyTime() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+ThreadTeam::ThreadTeam(std::size_t parts, double (*now)()) : now_(now), thrown_(parts) {
   for (std::size_t part = 1; part < parts; ++part)
     threads_.emplace_back([this, part] { serve(part); });
 }

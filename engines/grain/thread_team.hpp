@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -23,7 +22,8 @@ inline std::size_t partCount(int threads, std::size_t bodies) {
 /// tries both every few thousand steps. The parts are the same, and so are the results.
 class ThreadTeam {
  public:
-  explicit ThreadTeam(std::size_t parts);
+  /// @param now  the time [s], from anywhere
+  explicit ThreadTeam(std::size_t parts, double (*now)() = steadyTime);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
@@ -32,9 +32,9 @@ class ThreadTeam {
   template <class Step>
   void step(const Step& work) {
     if (threads_.empty()) return work();
-    const auto begin = Clock::now();
+    const double begin = now_();
     work();
-    took(std::chrono::duration<double>(Clock::now() - begin).count());
+    took(now_() - begin);
   }
 
   /// Calls work(part) for every part, part 0 on the calling thread, and waits for all of them.
@@ -46,7 +46,6 @@ class ThreadTeam {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
   static constexpr std::size_t trial = 64, retried = 32;  ///< [steps], [trials]
 
   /// A std::function would allocate for all but the smallest lambda, twice a step.
@@ -55,12 +54,14 @@ class ThreadTeam {
     void (*call)(const void* work, std::size_t part);
   };
 
+  static double steadyTime();
   void took(double seconds);
   void runTask(const Task& task);
   void rethrow();
   void serve(std::size_t part);
   void finish(std::size_t part) noexcept;
 
+  double (*now_)();
   Task task_{};
   std::atomic<std::uint32_t> round_{0}, pending_{0};
   std::atomic<bool> stop_{false};

@@ -162,7 +162,7 @@ class Transforms(StudyTest):
         for row in self.rows("stability.csv"):
             if row["verdict"] == "unstable":
                 self.assertGreater(float(row["value"]), float(row["limit"]))
-                self.assertRegex(row["reason"], r"^disk \d+ is where it should not be")
+                self.assertRegex(row["reason"], r"^body \d+ is where it should not be")
 
     def test_what_the_budget_has_no_time_for_is_not_run_until_there_is(self):
         slow = self.piped("slow", "time.sleep(float(os.environ['DELAY']))", PLANTED)

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -44,26 +43,27 @@ TEST(ThreadTeam, ThrowsWhatTheLowestPartThrewAndGoesOn) {
   }
 }
 
-/// @return how many threads share the steps once both ways have been tried
-std::size_t threadsChosen(ThreadTeam& team, const auto& work) {
-  for (int step = 0; step < 130; ++step) team.step([&] { team.run(work); });
-  std::array<std::thread::id, 2> by;
-  team.step([&] { team.run([&](std::size_t part) { by[part] = std::this_thread::get_id(); }); });
-  EXPECT_EQ(by[0], std::this_thread::get_id());
-  return by[0] == by[1] ? 1 : 2;
+double ticks = 0.0;  ///< of a clock that goes by steps [s]
+
+/// @return by how many threads a step is done once both ways have been tried: by two a step takes
+/// `shared` on that clock, by one 2
+std::size_t threadsChosen(double shared) {
+  ThreadTeam team(2, [] { return ticks; });
+  std::size_t chosen = 0;
+  for (int step = 0; step < 130; ++step)
+    team.step([&] {
+      std::array<std::thread::id, 2> by;
+      team.run([&](std::size_t part) { by[part] = std::this_thread::get_id(); });
+      EXPECT_EQ(by[0], std::this_thread::get_id());
+      chosen = by[0] == by[1] ? 1 : 2;
+      ticks += chosen == 2 ? shared : 2.0;
+    });
+  return chosen;
 }
 
 TEST(ThreadTeam, SharesStepsOutWhereThatTakesLessTime) {
-  using namespace std::chrono_literals;
-  ThreadTeam slow(2), quick(2);
-  EXPECT_EQ(threadsChosen(slow, [](std::size_t) { std::this_thread::sleep_for(1ms); }), 2u);
-  const auto caller = std::this_thread::get_id();
-  EXPECT_EQ(threadsChosen(quick,
-                          [caller](std::size_t) {  // the other thread is one that has to wait
-                            if (std::this_thread::get_id() != caller)
-                              std::this_thread::sleep_for(1ms);
-                          }),
-            1u);
+  EXPECT_EQ(threadsChosen(1.2), 2u);
+  EXPECT_EQ(threadsChosen(2.5), 1u);
 }
 
 class Threads : public testing::TestWithParam<Precision> {
