@@ -87,6 +87,11 @@ if(SPHINX_BUILD)
   install(DIRECTORY ${site}/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/html PATTERN .doctrees EXCLUDE PATTERN .buildinfo EXCLUDE)
 endif()
 
+# Pictures of the gallery, by the commands that it names: half an hour.
+add_custom_target(pictures
+  COMMAND python3 ${PROJECT_SOURCE_DIR}/docs/pictures.py $<TARGET_FILE:crossgrain> ${CMAKE_CURRENT_BINARY_DIR}/gallery
+  DEPENDS crossgrain USES_TERMINAL)
+
 # Removes what the last installation of this build folder has put there; folders stay.
 add_custom_target(uninstall
   COMMAND ${CMAKE_COMMAND} -DMANIFEST=${CMAKE_BINARY_DIR}/install_manifest.txt -P ${PROJECT_SOURCE_DIR}/cmake/Uninstall.cmake)
