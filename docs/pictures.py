@@ -19,7 +19,7 @@ ENTRY = re.compile(r"!\[[^]]*\]\(((?:pictures/)?\S+?)\)\s+```\n(crossgrain .*?) 
 
 def first_screen(page, picture):
     subprocess.run(
-        ["chromium", "--headless", "--no-sandbox", "--hide-scrollbars", "--window-size=1280,640",
+        ["chromium", "--headless", "--no-sandbox", "--hide-scrollbars", "--window-size=1280,760",
          f"--screenshot={picture}", f"file://{page}"], check=True, capture_output=True, timeout=120,
     )  # fmt: skip
 
