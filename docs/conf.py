@@ -31,7 +31,7 @@ def sidebar(index):
 
 
 def read_page(app, name, source):
-    """Links a folder by its README; adds the sidebar to the index, and says of other pages that they may be outside it."""
+    """Links a folder by its README; adds the sidebar to the index, and lets other pages stand outside it."""
     folder = os.path.dirname(os.path.join(root, name))
 
     def to_page(link):

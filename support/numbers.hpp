@@ -46,7 +46,7 @@ std::string readableDifference(std::optional<double> value, std::optional<double
 enum class Sign { ofAll, ofNegative };
 
 /// A value and its interval, all to the second digit of half of that, and to more where the value
-/// and an end are told apart by more: "−0.0083 (−0.0155 to −0.0008)", "49 margins (46 to 52)".
+/// and an end would be one text: "−0.0083 (−0.0155 to −0.0008)", "49 margins (46 to 52)".
 /// Without an interval, or where its ends are one number, the value alone.
 /// @param unit  after the value, with the space before it
 /// @param sign  of all: of differences

@@ -66,7 +66,7 @@ struct MaterialBlock : MeetingBlock {
 template <class L>
 using BlockOf = std::conditional_t<HasMaterials<L>, MaterialBlock, MeetingBlock>;
 
-/// What the law has no use for is not gathered.
+/// Gathers what the law uses of a pair.
 template <class L>
 GRAIN_INLINE void gather(const L& law, const SpaceView& all, const SpacePairs& pairs, std::size_t p,
                          std::size_t k, MeetingBlock& b) {

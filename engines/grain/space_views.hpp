@@ -104,7 +104,7 @@ struct SpaceContactView {
   Quad* spring;  ///< ξ
   Quad* angle;   ///< θ
   SpaceBond* bond;
-  // Results, which no step needs: null, too, where nobody asks for them.
+  // Results of a step, which the next one does not need. Null, too, where none are asked for.
   double* force;  ///< f_n
   Quad* slide;    ///< f_t of friction; w: whether it slides
   Quad* rolling;  ///< the torque against rolling

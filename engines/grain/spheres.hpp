@@ -126,8 +126,8 @@ class Spheres {
   struct PlacedPlane {
     std::size_t wall, member;
     double radius;  ///< of a cylinder; 0: a plane
-    Vec3<double> point,
-        normal;  ///< at this instant; of a cylinder a point of the axis, and its direction
+    /// At this instant; of a cylinder a point of the axis, and its direction.
+    Vec3<double> point, normal;
     SpaceContacts contacts;
     std::vector<std::uint8_t> touches{};
 

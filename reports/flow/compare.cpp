@@ -194,10 +194,11 @@ Names compareNotes(const CompareResults& results, const Engines& engines) {
   if (results.endpoints.looks.taken > 0) notes.push_back(describe(results.endpoints.looks));
   notes.push_back(ratesInWords(results));
   if (results.lockstep) notes.push_back("Lockstep: " + leadOf(*results.lockstep));
+  // Drifts stand beside the verdicts, where there are any.
+  const std::string shown =
+      results.endpoints.rows.empty() ? std::string() : driftSentence(results, engines);
   for (std::string& state : stateSentences(results, engines))
-    // Beside verdicts it is no note.
-    if (results.endpoints.rows.empty() || state != driftSentence(results, engines))
-      notes.push_back(std::move(state));
+    if (state != shown) notes.push_back(std::move(state));
   for (const EngineRuns& engine : engines) notes.push_back(troubleInWords(engine));
   const auto isPaired = [](const EndpointRow& row) { return !row.unpaired; };
   if (results.packings.size() < 4 && std::ranges::all_of(results.endpoints.rows, isPaired) &&

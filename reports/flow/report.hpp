@@ -143,7 +143,7 @@ std::string averagedRotations(const FlowAveraging& averaging);
 /// where it is undecided.
 Names stateSentences(const CompareResults& results, const Engines& engines);
 
-/// "Not steady: on yade outer pressure falls by 40 ± 8 %, …": of all engines; empty where none is
+/// "Not steady: on theirs outer pressure falls by 40 ± 8 %, …": of all engines; empty where none is
 /// seen to drift.
 std::string driftSentence(const CompareResults& results, const Engines& engines);
 

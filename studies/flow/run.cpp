@@ -41,7 +41,7 @@ bool isOfStrip(int taken, int samples) {
   return false;
 }
 
-/// What moves, and the walls.
+/// Keeps of a scene's picture the bodies as they move, and the walls.
 template <int D>
 ScenePicture stripPicture(const SceneOf<D>& scene, const SnapshotOf<D>& now) {
   ScenePicture picture = scenePicture(scene, now, NAN);
