@@ -164,18 +164,20 @@ const Section<DisksInput<D>>& disksKeys() {
       withArrangements<D, I>(
           {need("position", &I::position, anyNumber("m"), "[x, y] of the (first) disk"),
            key("radius", &I::radius, positive("m"), "").listed("required without `shape`"),
-           special<I>({"shape", "m", "–", "a table",
-                       "a convex body, one of: `{ polygon = [[x, y], …], rounding = 0 }`, "
-                       "counter-clockwise about any origin; `{ sides, radius }`, a regular polygon "
-                       "on its side; `{ box = [a, b] }`, in space `[a, b, c]`; `{ capsule = "
-                       "[length, radius] }`, along x, in space along z; in space also `{ cylinder "
-                       "= [length, radius] }`, along z, and `{ polyhedron = [[x, y, z], …] }`"},
-                      [](Reader& in, const std::string& name, I& group) {
-                        if (in.has(name))
-                          group.shape = readShape<D>(in.section(name));
-                        else
-                          in.take(name);
-                      }),
+           special<I>(
+               {"shape", "m", "–", "a table",
+                "a convex body, one of: `{ polygon = [[x, y], …] }`, counter-clockwise about any "
+                "origin; `{ sides, radius }`, a regular polygon on its side; `{ box = [a, "
+                "b] }`, in space `[a, b, c]`; `{ capsule = [length, radius] }`, along x, in "
+                "space along z; in space also `{ cylinder = [length, radius] }`, along z, "
+                "and `{ polyhedron = [[x, y, z], …] }`. In the plane `rounding` = 0 (m) goes "
+                "with polygons and boxes: the body is all within it of them"},
+               [](Reader& in, const std::string& name, I& group) {
+                 if (in.has(name))
+                   group.shape = readShape<D>(in.section(name));
+                 else
+                   in.take(name);
+               }),
            key("angle", &I::angle, between(-360.0, 360.0, "degrees"),
                "of a convex body, in the plane"),
            key("quaternion", &I::quaternion, Range{},
@@ -212,7 +214,8 @@ DiskGroupOf<D> readDisks(Reader in) {
   checkArrangement(in);
   in.check(group.count() <= group.places.size(), "choose", "must be at most {}, the places there",
            group.places.size());
-  in.check(!in.has("mass") || !in.has("density"), "density", "and mass: give one of them");
+  in.check(!in.has("mass") || !in.has("density"), "density",
+           "stands beside mass: give one of the two");
   if (!in.has("mass") && !in.has("density")) in.failMissing("mass", "or density");
   if (group.shape) {
     makeConvex(in, group);

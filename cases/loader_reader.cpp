@@ -249,7 +249,7 @@ std::string Reader::onlyOne(std::initializer_list<const char*> keys, std::string
   for (const char* const key : keys) {
     take(key);
     if (!has(key)) continue;
-    check(given.empty(), key, "and {}: {}", given, rule);
+    check(given.empty(), key, "stands beside {}: {}", given, rule);
     given = key;
   }
   return given;

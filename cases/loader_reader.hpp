@@ -137,9 +137,9 @@ class Reader {
   /// The node under a key, or null; for values of more than one form.
   const toml::node* take(std::string_view key);
   /// The one of some keys that is present, or empty. More than one is an error at the later one:
-  /// "and FIRST: rule".
+  /// "stands beside FIRST: rule".
   std::string onlyOne(std::initializer_list<const char*> keys,
-                      std::string_view rule = "give one of them");
+                      std::string_view rule = "give one of the two");
 
   /// Reports the first unknown key, else the first missing one.
   void finish() const;

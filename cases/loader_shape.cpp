@@ -109,7 +109,7 @@ TurnOf<D> givenTurn(const Reader& in, const DisksInput<D>& group) {
     in.check(q.size() == 4, "quaternion", "must be four numbers, [w, x, y, z]");
     const Eigen::Quaterniond given(q[0], q[1], q[2], q[3]);
     const auto turn = writtenTurn(given);
-    in.check(turn.has_value(), "quaternion", "must be [w, x, y, z] of length 1, which is {:g}",
+    in.check(turn.has_value(), "quaternion", "must be [w, x, y, z] of length 1, not {:g}",
              given.norm());
     return *turn;
   }
@@ -119,7 +119,7 @@ TurnOf<D> givenTurn(const Reader& in, const DisksInput<D>& group) {
 
 template <int D>
 void makeConvex(const Reader& in, DisksInput<D>& group) {
-  in.check(!in.has("radius"), "radius", "and shape: give one of them");
+  in.check(!in.has("radius"), "radius", "stands beside shape: give one of the two");
   in.check(group.radiusSpread == 0.0, "radius_spread", "is of disks and spheres");
   ShapeOf<D>& shape = *group.shape;
   const FrameOf<D> frame = intoOwnFrame(shape);

@@ -152,8 +152,7 @@ void addShape(const CsvLine& line, const CsvValues<D>& values, const StartShapeO
       const auto part = [&](std::size_t k) { return *values[Columns::turn + k]; };
       const Eigen::Quaterniond given(*first, part(1), part(2), part(3));
       const auto unit = writtenTurn(given);
-      line.check(unit.has_value(), "qw, qx, qy, qz: must be of length 1, which is {:g}",
-                 given.norm());
+      line.check(unit.has_value(), "qw, qx, qy, qz: must be of length 1, not {:g}", given.norm());
       turn = *unit;
     }
   }
@@ -207,7 +206,8 @@ void readDisk(const CsvLine& line, const std::vector<std::size_t>& columns,
   };
   const StartShapeOf<D>* const own = shape.empty() ? nullptr : &shapeNamed(line, shape, shapes);
   line.check(own || values[Columns::radius], "has neither a radius nor a shape");
-  line.check(!own || !values[Columns::radius], "shape = {}: and a radius: give one of them", shape);
+  line.check(!own || !values[Columns::radius],
+             "shape = {}: stands beside a radius: give one of the two", shape);
   line.check(!own || isFixed == 0.0, "shape = {}: what stands still is disks, not convex bodies",
              shape);
   const VecOf<D> position = vectorFrom(Columns::x);

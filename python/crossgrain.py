@@ -218,14 +218,20 @@ def _axes():
 
 
 def plot_profile(results, field, engines=None, ax=None, **choice):
-    """One field of engines (default: all that have it) with standard errors, over r, or over the numbers of bins that are
-    no rings. choice: packing and method, as of Results.profile. Returns matplotlib's axes."""
+    """One field of engines (default: all that have it by what verdicts rest on) with standard errors, over r, or over the
+    numbers of bins that are no rings. choice: packing and method, as of Results.profile. Returns matplotlib's axes."""
     having = {p.engine for p in results._all_profiles() if p.field == field}
     names = engines or [name for name in results.engines if name in having]
     _one(names, f"profile of {field}", {p.field for p in results._all_profiles()})
-    ax = ax or _axes()
+    profiles = {}
     for name in names:
-        p = results.profile(field, engine=name, **choice)
+        try:
+            profiles[name] = results.profile(field, engine=name, **choice)
+        except KeyError:
+            if engines or (name == names[-1] and not profiles):
+                raise
+    ax = ax or _axes()
+    for name, p in profiles.items():
         ax.errorbar(p.r if len(p.r) else np.arange(1, len(p.mean) + 1), p.mean, p.stderr, capsize=2, label=name)
     ax.set_xlabel("r [m]" if len(p.r) else "bin")
     ax.set_ylabel(field.replace("_", " ") + ("" if p.unit in ("-", "1") else f" [{p.unit}]"))

@@ -129,7 +129,7 @@ TEST_F(Average, ClosedForms) {
   expectMessage(with("quantity = \"y\"\ndisk = 99\nabsolute = 1"), "endpoints[0].disk = 99");
   expectMessage(with("quantity = \"top\"\ndisk = 0\nabsolute = 1"), "x, y, velocity_x");
   expectMessage(with("quantity = \"y\"\ndisk = 0\nat = \"end\"\ntime = 2\nabsolute = 1"),
-                "give one of them");
+                "give one of the two");
   expectMessage(with("quantity = \"y\"\ndisk = 0\ntime = 9\nexpected = 1\nabsolute = 1"),
                 "endpoints[0].time = 9: snapshots are from 1.02 to 3 s");
   expectMessage(with("quantity = \"spin\"\nreaches = 2\nabsolute = 1"), "not of a field");
@@ -271,7 +271,8 @@ TEST_F(Average, StartFile_ShapeOfARow) {
   for (const auto& [text, message] :
        {std::pair{"x,y,shape\n0,1,a\n3,1,d\n",
                   "start.csv:3: shape = d: is no shape of [assembly.start]"},
-        {"x,y,shape,radius\n0,1,a,1\n", "start.csv:2: shape = a: and a radius: give one of them"},
+        {"x,y,shape,radius\n0,1,a,1\n",
+         "start.csv:2: shape = a: stands beside a radius: give one of the two"},
         {"x,y,shape,radius\n0,1,,\n", "start.csv:2: has neither a radius nor a shape"},
         {"x,y,angle\n0,1,3\n", "start.csv:1: there is no column radius"},
         {"x,y,radius,angle\n0,1,1,3\n",
@@ -312,7 +313,7 @@ TEST_F(Average, StartFile_ShapeOfARowInSpace) {
                                 "0.5\n");
   for (const auto& [text, message] :
        {std::pair{"x,y,z,shape,qw,qx,qy,qz\n0,1,2,wedge,1,0,0,1\n",
-                  "start.csv:2: qw, qx, qy, qz: must be of length 1, which is 1.41421"},
+                  "start.csv:2: qw, qx, qy, qz: must be of length 1, not 1.41421"},
         {"x,y,z,shape,qw,qx,qy,qz\n0,1,2,wedge,1,0,,0\n",
          "start.csv:2: qy = nothing: quaternions are qw, qx, qy, qz"},
         {"x,y,z,shape,qw,qx,qz\n0,1,2,wedge,1,0,0\n",

@@ -142,17 +142,19 @@ TEST_F(LoaderErrors, TwoWaysToSayOneThing_AreRefused) {
        "case.toml:26:21: run.steps_per_contact = 50: the step is given by run.dt, leave out one of "
        "them"},
       {plus("[averaging.margins]\nspin = { relative = 0.1, absolute = 1, why = \"x\" }\n"),
-       "case.toml:25:37: averaging.margins.spin.absolute = 1: and relative: give one of them"},
+       "case.toml:25:37: averaging.margins.spin.absolute = 1: stands beside relative: give one of "
+       "the two"},
       {collision(9, "psi = 1\nangle = 45"),
-       "case.toml:10:9: collision.angle = 45: and psi, its tangent: give one of them"},
+       "case.toml:10:9: collision.angle = 45: stands beside psi, its tangent: give one of the two"},
       {collision(10, "vn = 1\nspeed = 1"),
-       "case.toml:11:9: collision.speed = 1: and vn, its part along the normal: give one of them"},
+       "case.toml:11:9: collision.speed = 1: stands beside vn, its part along the normal: give one "
+       "of the two"},
       {assembly(12, "mass = 1.0\ndensity = 1.0"),
-       "case.toml:13:11: assembly.disks[0].density = 1.0: and mass: give one of them"},
+       "case.toml:13:11: assembly.disks[0].density = 1.0: stands beside mass: give one of the two"},
       {assembly(12, "mass = 1.0\ngrid = { columns = 2, rows = 2 }\nchain = { count = 2 }"),
-       "case.toml:14:9: [assembly.disks[0].chain]: and grid: give one of them"},
+       "case.toml:14:9: [assembly.disks[0].chain]: stands beside grid: give one of the two"},
       {assembly(8, "steps = 1\nduration = 2.0"),
-       "case.toml:8:9: assembly.steps = 1: and duration: give one of them"},
+       "case.toml:8:9: assembly.steps = 1: stands beside duration: give one of the two"},
   });
 }
 
@@ -282,7 +284,7 @@ TEST_F(LoaderErrors, Collision_OfConvexBodies) {
   const std::vector<Bad> bads = {
       {convex(box, angle), ""},
       {convex(box, angle + "\nradius = 0.1"),
-       "case.toml:16:10: collision.radius = 0.1: and shape: give one of them"},
+       "case.toml:16:10: collision.radius = 0.1: stands beside shape: give one of the two"},
       {convex(""), "case.toml:9:1: collision.radius is missing: or shape"},
       {convex("shape = { box = [0.1, 0.06], radius = 0.1 }", angle),
        "case.toml:14:39: collision.shape.radius = 0.1: is of the sides of a regular polygon; a box "
@@ -347,7 +349,8 @@ TEST_F(LoaderErrors, Assembly_Walls_Density_Stability) {
       {assembly(12,
                 "mass = 1.0\n[[assembly.walls]]\npoint = [0, 0]\nnormal = [0, 1]\n"
                 "omega = 1.0\nvelocity = [1, 0]"),
-       "case.toml:16:9: assembly.walls[0].omega = 1.0: and velocity: a wall moves in one way"},
+       "case.toml:16:9: assembly.walls[0].omega = 1.0: stands beside velocity: a wall moves in one "
+       "way"},
       {assembly(12, "density = 1e308"),
        "case.toml:12:11: assembly.disks[0].density = 1e+308: makes disks of radius 0.5 m weigh inf "
        "kg"},

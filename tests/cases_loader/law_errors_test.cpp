@@ -81,7 +81,7 @@ TEST_F(LoaderErrors, Law_ThatStiffens_HasItsOwnKeys) {
        "= "
        "\"critical\""},
       {hertz + "damper = \"critical\"\ne_n = 0.5\n",
-       "case.toml:15:7: law.e_n = 0.5: and gn: give one of them"},
+       "case.toml:15:7: law.e_n = 0.5: stands beside gn: give one of the two"},
       {withLine(hertz, 13, "damper = \"critical\"\ne_n = 0"),
        "case.toml:14:7: law.e_n = 0: a soft law needs it > 0"},
       {withLine(hertz, 9, "normal = \"polynomial\""),
@@ -174,7 +174,7 @@ TEST_F(LoaderErrors, Law_OfCohesion_NeedsItsConstantsWithinTheirRanges) {
       {loneDisk + "cohesion = \"dmt\"\ngamma = -0.1\n",
        "case.toml:17:9: law.gamma = -0.1: must be >= 0 J/m^2"},
       {loneDisk + "cohesion = \"dmt\"\nw = 0.1\ngamma = 0.05\n",
-       "case.toml:18:9: law.gamma = 0.05: and w: give one of them"},
+       "case.toml:18:9: law.gamma = 0.05: stands beside w: give one of the two"},
       {loneDisk + "cohesion = \"jkr\"\nw = 0.1\n",
        "case.toml:16:12: law.cohesion = \"jkr\": \"jkr\" is Hertz' law with adhesion: it needs "
        "normal = \"hertz\""},

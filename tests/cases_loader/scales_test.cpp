@@ -72,7 +72,8 @@ TEST_F(Scales, BadShares) {
       {margins("share = 0.1"),
        "case.toml:25:8: averaging.margins.spin.of is missing: a margin of a share says of what"},
       {margins("share = 0.1, of = \"spin_scale\", absolute = 1"),
-       "case.toml:25:18: averaging.margins.spin.share = 0.1: and absolute: give one of them"},
+       "case.toml:25:18: averaging.margins.spin.share = 0.1: stands beside absolute: give one of "
+       "the two"},
   });
 }
 
@@ -132,8 +133,8 @@ TEST_F(Scales, BothForms_OrNone_AreRefused) {
   const std::string counts = "small = 210\nlarge = 34\n";
   expectMessages({
       {particles(masses + counts + "volume_fraction = 0.7\nlarge_number_share = 0.1\n"),
-       "case.toml:24:19: particles.volume_fraction = 0.7: and small, a number of disks: give one "
-       "of the two"},
+       "case.toml:24:19: particles.volume_fraction = 0.7: stands beside small, a number of "
+       "disks: give one of the two"},
       {particles(masses + counts + "large_number_share = 0.1\n"),
        "case.toml:17:1: particles.volume_fraction is missing: the share of large disks is for a "
        "case that gives it"},
@@ -142,12 +143,12 @@ TEST_F(Scales, BothForms_OrNone_AreRefused) {
        "are no large disks"},
       {particles(masses +
                  "volume_fraction = 0.7\nlarge_number_share = 0.1\nlarge_mass_share = 0.1\n"),
-       "case.toml:24:20: particles.large_mass_share = 0.1: and large_number_share: give one of "
-       "them"},
+       "case.toml:24:20: particles.large_mass_share = 0.1: stands beside large_number_share: "
+       "give one of the two"},
       {particles(masses + "volume_fraction = 1.0\nlarge_number_share = 0.1\n"),
        "case.toml:22:19: particles.volume_fraction = 1.0: must be in (0, 1)"},
       {particles("small_mass = 1e-3\ndensity = 1060\n" + counts),
-       "case.toml:21:11: particles.density = 1060: and small_mass: give one of them"},
+       "case.toml:21:11: particles.density = 1060: stands beside small_mass: give one of the two"},
       {particles(counts), "case.toml:17:1: particles.small_mass is missing"},
   });
 }

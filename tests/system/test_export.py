@@ -384,6 +384,12 @@ class PythonReader(OneRun):
         with self.assertRaisesRegex(KeyError, "ask for it by packing=0"):
             results.profile("spin", engine="other")
         self.assertEqual(8.0, results.profile("spin", engine="other", packing=0).mean[0])
+        matplotlib.use("Agg")
+        drawn = crossgrain.plot_profile(results, "spin").get_legend().get_texts()
+        self.assertEqual(["ours", "peer"], [text.get_text() for text in drawn])
+        for choice in ({"engines": ["other"]}, {"packing": 9}):
+            with self.assertRaises(KeyError):
+                crossgrain.plot_profile(results, "spin", **choice)
 
     def test_what_is_not_there_is_said(self):
         results = crossgrain.Results(self.ran)
