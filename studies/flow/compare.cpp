@@ -258,7 +258,7 @@ std::vector<std::string> endpointsWith(const CompareResults& results, Verdict ve
 std::vector<std::string> failsOf(const CompareResults& results, std::size_t refused, bool strict) {
   std::vector<std::string> fails;
   const auto add = [&](const char* what, const std::vector<std::string>& who) {
-    if (!who.empty()) fails.push_back(fmt::format("{} ({})", what, fmt::join(who, "; ")));
+    if (!who.empty()) fails.push_back(fmt::format("{} ({})", what, firstOf(who, "; ")));
   };
   // Where a law leaves open what parts an engine from its mirror, that is borderline.
   const auto lockstepWith = [&](Equivalence verdict, bool borderline) {

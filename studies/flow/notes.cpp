@@ -118,15 +118,14 @@ std::optional<double> meanOf(const FlowStudy& study, const std::string& engine,
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// "a.dump, b.dump, c.dump and 4 more"
-std::string namesOf(const std::vector<std::string>& files) {
-  constexpr std::size_t most = 3;
-  if (files.size() <= most) return fmt::format("{}", fmt::join(files, ", "));
-  return fmt::format("{} and {} more", fmt::join(std::span(files).first(most), ", "),
-                     files.size() - most);
-}
-
 }  // namespace
+
+std::string firstOf(const std::vector<std::string>& names, std::string_view between) {
+  constexpr std::size_t most = 3;
+  if (names.size() <= most) return fmt::format("{}", fmt::join(names, between));
+  return fmt::format("{} and {} more", fmt::join(std::span(names).first(most), between),
+                     names.size() - most);
+}
 
 std::vector<std::string> remarkNotes(std::span<const FlowRun> runs, bool named) {
   std::vector<std::string> notes;
@@ -138,7 +137,7 @@ std::vector<std::string> remarkNotes(std::span<const FlowRun> runs, bool named) 
         if (std::ranges::find(other->remarks, remark) != other->remarks.end())
           files.push_back(other->files);
       std::string who = named ? run.engine : "";
-      if (files.size() < all.size()) who += (named ? ", " : "") + namesOf(files);
+      if (files.size() < all.size()) who += (named ? ", " : "") + firstOf(files);
       std::string note = who.empty() ? remark : who + ": " + remark;
       if (std::ranges::find(notes, note) == notes.end()) notes.push_back(std::move(note));
     }

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cases/case.hpp"
@@ -20,6 +21,9 @@ std::vector<AlarmRow> alarmsOf(const Case& setup, const CompareResults& results)
 /// (averaging/contact_rule.hpp): coordination as it is and as it would be with every pair that an
 /// engine lists, engine by engine. One note, or none where no run shows contacts.
 std::vector<std::string> contactNotes(const FlowStudy& study);
+
+/// The first three, and how many more: "a.dump, b.dump, c.dump and 4 more".
+std::string firstOf(const std::vector<std::string>& names, std::string_view between = ", ");
 
 /// Notes on what files lack and what that costs, each once: of some of an engine's runs with their
 /// names.

@@ -149,6 +149,11 @@ TEST(CompareOutcome, StatusOne_SaysWhichRuleMadeIt) {
   results.lockstep.emplace().rows = {law};
   EXPECT_EQ(why(false), (Lines{"an alarm: engines differ in what no margin excuses (a and b)",
                                "an engine differs from the law that it declares (b)"}));
+  results.lockstep.reset();
+  for (const char* const peer : {"c", "d", "e", "f"})
+    results.endpoints.alarms.push_back({"a", peer, PairKind::peer, "spin is 12 margins away"});
+  EXPECT_EQ(why(false), Lines{"an alarm: engines differ in what no margin excuses (a and b; a and "
+                              "c; a and d and 2 more)"});
 }
 
 TEST(CompareOutcome, NothingJudged_IsFailureUnlessAskedFor) {
