@@ -342,8 +342,8 @@ bool allPass(const CollideResults& results, const CaseGroup& group) {
   });
 }
 
-void addCollisionCase(Report& report, const CollideResults& results, const CaseGroup& group,
-                      std::size_t number) {
+Blocks collisionCaseBlocks(const Report& report, const CollideResults& results,
+                           const CaseGroup& group, std::size_t number) {
   using enum Paragraph::Style;
   const std::string figure = fmt::format("collision_{}", number);
   const auto drawing = [&](const std::string& name) {
@@ -352,15 +352,13 @@ void addCollisionCase(Report& report, const CollideResults& results, const CaseG
       if (one.name == name) drawings.names.push_back(name);
     return drawings;
   };
-  Blocks blocks = {Paragraph{lawOf(group), small}, Paragraph{declaredOf(results, group), small},
-                   Paragraph{limitsOf(group), small}, drawing(figure),
-                   variantTable(results, group)};
-  if (std::string space = spaceOf(group); !space.empty())
-    blocks.insert(blocks.begin() + 1, Paragraph{std::move(space), small});
-  if (std::string convex = convexOf(group); !convex.empty()) {
-    blocks.insert(blocks.begin() + 1, Paragraph{std::move(convex), small});
-    blocks.push_back(Details{"Impacts, point by point", {kindTable(group)}});
-  }
+  const std::string convex = convexOf(group);
+  Blocks blocks;
+  for (std::string words :
+       nonEmpty({convex, spaceOf(group), declaredOf(results, group), limitsOf(group)}))
+    blocks.push_back(Paragraph{std::move(words), small});
+  blocks.push_back(variantTable(results, group));
+  if (!convex.empty()) blocks.push_back(Details{"Impacts, point by point", {kindTable(group)}});
   Table causes = causesTable(group, false);
   Names notes = causesNotes(group, false);
   if (!causes.rows.empty() || !notes.empty())
@@ -379,11 +377,8 @@ void addCollisionCase(Report& report, const CollideResults& results, const CaseG
   if (Drawings energy = drawing(figure + "_energy"); !energy.names.empty())
     blocks.push_back(Details{"Where the energy went", {std::move(energy)}});
   blocks.push_back(Details{"Scores: engine × time step × quantity", {scoreTable(group)}});
-  Section& section = report.section(fmt::format("case_{}", number), group.name);
-  if (allPass(results, group))
-    section.blocks.push_back(Details{"✓ passed by every engine", std::move(blocks)});
-  else
-    section.blocks = std::move(blocks);
+  return {Paragraph{lawOf(group), small}, drawing(figure),
+          Details{"Variants, limits, causes and scores", std::move(blocks)}};
 }
 
 std::string aboutCollisions(const CollideResults& results) {
@@ -406,16 +401,75 @@ std::string aboutCollisions(const CollideResults& results) {
           : "the impact of rigid bodies at one point");
 }
 
+/// "failed: a; model difference: b and c": engines that do not pass a case.
+std::string statesOf(const CollideResults& results, const CaseGroup& group) {
+  constexpr std::pair<Verdict, std::string_view> words[] = {
+      {Verdict::fail, "failed"},
+      {Verdict::modelDifference, "model difference"},
+      {Verdict::notApplicable, "refused"}};
+  Names parts;
+  for (const auto& [verdict, word] : words) {
+    Names who;
+    for (const EngineRow& engine : results.engines)
+      if (engine.mirrors.empty() && stateOf(tallyOf(group.variants, engine.name)) == verdict)
+        who.push_back(engine.name);
+    if (!who.empty()) parts.push_back(fmt::format("{}: {}", word, listedShortly(who, 3)));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+/// In sight the first case in which an engine differs, then the summary; a section for each
+/// other one that is not passed, and one for all that every engine passes. @returns the first's id
+std::string addCollisionCases(Report& report, const CollideResults& results,
+                              const std::vector<CaseGroup>& groups) {
+  const auto notPassed = [&](const CaseGroup& group) { return !allPass(results, group); };
+  const auto differs = [&](const CaseGroup& group) {
+    return std::ranges::any_of(results.engines, [&](const EngineRow& engine) {
+      const Verdict state = stateOf(tallyOf(group.variants, engine.name));
+      return state == Verdict::fail || state == Verdict::modelDifference;
+    });
+  };
+  auto first = std::ranges::find_if(groups, differs);
+  if (first == groups.end()) first = std::ranges::find_if(groups, notPassed);
+  const std::size_t shown =
+      first == groups.end() ? 0 : static_cast<std::size_t>(first - groups.begin());
+  const auto add = [&](std::size_t g) {
+    const std::string states = statesOf(results, groups[g]);
+    report
+        .section(fmt::format("case_{}", g + 1),
+                 groups[g].name + (states.empty() ? "" : ": " + states), groups[g].name)
+        .blocks = collisionCaseBlocks(report, results, groups[g], g + 1);
+  };
+  if (!groups.empty()) add(shown);
+  report.section("matrix", "Cases by engine", "Summary").blocks = {
+      collideMatrix(groups, results.engines),
+      Details{"What was compared", {Paragraph{aboutCollisions(results)}}}};
+  Blocks passed;
+  std::size_t count = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    if (g == shown) continue;
+    if (notPassed(groups[g])) {
+      add(g);
+      continue;
+    }
+    passed.push_back(Heading{groups[g].name, fmt::format("case_{}", g + 1)});
+    std::ranges::move(collisionCaseBlocks(report, results, groups[g], g + 1),
+                      std::back_inserter(passed));
+    ++count;
+  }
+  if (count > 0)
+    report.section("passed", "✓ passed by every engine: " + counted(count, "other case"), "Passed")
+        .blocks = std::move(passed);
+  return fmt::format("case_{}", shown + 1);
+}
+
 }  // namespace
 
 Report reportOf(const CollideResults& results) {
   const std::vector<CaseGroup> groups = casesOf(results);
   Report report{{results.head, results.engines, collideOverview(results)}, results.elapsed};
   report.figures = collideFigures(results);
-  report.section("matrix", "Cases by engine", "Summary").blocks = {
-      collideMatrix(groups, results.engines), Paragraph{aboutCollisions(results)}};
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    addCollisionCase(report, results, groups[g], g + 1);
+  const std::string inSight = addCollisionCases(report, results, groups);
   addEngines(report);
   std::vector<EffectiveScene> effective;
   for (const CollisionVariant& variant : results.variants)
@@ -430,6 +484,7 @@ Report reportOf(const CollideResults& results) {
       if (curve.causes) causes.push_back(&*curve.causes);
   if (Table terms = causeTerms(causes); !terms.rows.empty())
     report.section("terms", "Options that differ", "Terms").blocks = {std::move(terms)};
+  report.foldAllBut({"matrix", inSight});
   report.tables = {{"collisions.csv", collisionsCsv(results)}};
   if (!causes.empty()) report.tables.emplace_back("causes.csv", causesCsv(results));
   report.checks = collideChecks(results);

@@ -173,6 +173,10 @@ struct Report : ReportDigest {
     return sections.emplace_back(
         Section{std::move(id), std::move(title), {}, std::move(shortTitle), false});
   }
+  /// Leaves these sections in sight, all others in one line each.
+  void foldAllBut(const Names& ids) {
+    for (Section& one : sections) one.folded = !contains(ids, one.id);
+  }
 };
 
 /// The figures whose names begin so, that have anything to draw.

@@ -77,11 +77,16 @@ void addCheckPart(Report& report, const ConformanceResults& results, const Check
                           row.detail + more}});
   }
   if (faults.rows.empty() && others.rows.empty()) return;
-  Blocks& blocks = report.section(part.name, part.title).blocks;
-  if (!faults.rows.empty()) blocks.push_back(std::move(faults));
-  if (!others.rows.empty())
-    blocks.push_back(
-        Details{counted(others.rows.size(), "check") + " passed or skipped", {std::move(others)}});
+  const std::string rest = counted(others.rows.size(), "check") + " without a fault";
+  Section& section = report.section(part.name, part.title, part.title);
+  section.folded = faults.rows.empty();
+  if (section.folded) {
+    section.title += ": " + rest;
+    section.blocks = {std::move(others)};
+    return;
+  }
+  section.blocks = {std::move(faults)};
+  if (!others.rows.empty()) section.blocks.push_back(Details{rest, {std::move(others)}});
 }
 
 /// Checks of one subject.
@@ -192,7 +197,9 @@ Report reportOf(const ConformanceResults& results) {
   for (const std::string& more : nonEmpty({conformanceNotExamined(results)}))
     report.notes.push_back(capitalised(more) + ".");
   for (const CheckPart& part : checkParts) addCheckPart(report, results, part);
-  report.section("reading", "How to read it").blocks = {List{
+  Section& reading = report.section("reading", "How to read it");
+  reading.folded = true;
+  reading.blocks = {List{
       {{"Suite",
         "each check poses a property on a scene of a few disks, under the conventions that the "
         "engine declares."},

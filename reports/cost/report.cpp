@@ -588,6 +588,9 @@ Names costSentences(const CostResults& results) {
   return sentences;
 }
 
+/// Figures of quantities that are not folded.
+constexpr std::size_t mostInSight = 4;
+
 constexpr const char* whatMarginsAre =
     "Each endpoint's distance from its closed form, in units of the case's margin of it: below 1 "
     "it "
@@ -665,9 +668,14 @@ Report reportOf(const CostResults& results) {
   report.figures = costFigures(results);
   report.tables = {{"cost.csv", costCsv(results)}};
   if (!results.steps.empty()) report.tables.push_back({"scale.csv", scaleCsv(results)});
-  report.section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
-  if (Drawings picture = drawingsOf(report.figures, "cost_picture_"); !picture.names.empty())
-    report.section("picture", "Error against processor time and steps").blocks = {
+  std::string inSight;
+  if (Drawings picture = drawingsOf(report.figures, "cost_picture_"); !picture.names.empty()) {
+    Drawings others = picture;
+    picture.names.resize(std::min(picture.names.size(), mostInSight));
+    others.names.erase(others.names.begin(),
+                       others.names.begin() + static_cast<std::ptrdiff_t>(picture.names.size()));
+    Blocks& blocks = report.section("picture", "Error against processor time and steps").blocks;
+    blocks = {
         Paragraph{results.inMargins ? whatMarginsAre : whatErrorsAre(CostKind::averages)},
         Paragraph{
             results.inMargins
@@ -677,6 +685,10 @@ Report reportOf(const CostResults& results) {
                   "interval lies inside. Collisions: the worst that ran, over phases of a step and "
                   "every pair of the scene; dashed: the largest rms."},
         std::move(picture)};
+    if (!others.names.empty()) blocks.push_back(Details{"Other quantities", {std::move(others)}});
+    inSight = "picture";
+  }
+  report.section("advice", "Advice: settings to paste").blocks = adviceBlocks(results);
   if (results.inMargins)
     report.section("trade", "Small steps or many iterations").blocks = tradeBlocks(results);
   else
@@ -686,6 +698,7 @@ Report reportOf(const CostResults& results) {
     if (kind == CostKind::averages) continue;  // has the picture
     report.section("kind-" + toString(kind), "Error against time: " + kindText(kind)).blocks = {
         Paragraph{whatErrorsAre(kind)}, drawingsOf(report.figures, "cost_" + toString(kind))};
+    if (inSight.empty()) inSight = "kind-" + toString(kind);
   }
   if (const Table table = impactTable(results); !table.rows.empty())
     report.section("impacts", "Collisions of this scene").blocks = {table};
@@ -699,23 +712,24 @@ Report reportOf(const CostResults& results) {
   if (!results.inMargins) addTable("others", "What other settings change", settingTable(results));
   addTable("references", "References and start-up", referenceTable(results));
   addTable("notrun", "What did not run", notRunTable(results));
-  if (results.inMargins) return report;
-  report.section("reading", "How to read it").blocks = {
-      List{{{"Three kinds of error",
-             "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of "
-             "the same piece of work; those of different kinds cannot be compared."},
-            {"The Pareto front",
-             "the points that no other is shown to beat in both processor time and error. Times "
-             "whose intervals overlap are a tie: both stay."},
-            {"Intervals",
-             "an error lies between itself less and plus its statistical error and the uncertainty "
-             "of its reference. A setting is recommended only if the upper end meets the accuracy. "
-             "A point below one of its two uncertainties may be chance; it counts, and is drawn "
-             "(▽), at its upper end."},
-            {"Averages",
-             "have a systematic part, which belongs to the setting, and a statistical part, which "
-             "falls with the root of the simulated time and of the number of packings. Packings "
-             "scatter them by more than most settings change them."}}}};
+  if (!results.inMargins)
+    report.section("reading", "How to read it").blocks = {List{
+        {{"Three kinds of error",
+          "never mixed: of a collision, of a trajectory, of averages. Times of one kind are of "
+          "the same piece of work; those of different kinds cannot be compared."},
+         {"The Pareto front",
+          "the points that no other is shown to beat in both processor time and error. Times "
+          "whose intervals overlap are a tie: both stay."},
+         {"Intervals",
+          "an error lies between itself less and plus its statistical error and the uncertainty "
+          "of its reference. A setting is recommended only if the upper end meets the accuracy. "
+          "A point below one of its two uncertainties may be chance; it counts, and is drawn "
+          "(▽), at its upper end."},
+         {"Averages",
+          "have a systematic part, which belongs to the setting, and a statistical part, which "
+          "falls with the root of the simulated time and of the number of packings. Packings "
+          "scatter them by more than most settings change them."}}}};
+  report.foldAllBut({inSight.empty() ? "steps" : inSight});
   return report;
 }
 

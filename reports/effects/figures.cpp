@@ -37,6 +37,14 @@ Panel costPanel(const Variants& variants) {
     if (variants[k].timeRatioError) point.error = 100.0 * *variants[k].timeRatioError;
     cost.points.push_back(point);
   }
+  double reach = 0.0;
+  for (const Point& point : cost.points) reach = std::max(reach, std::abs(point.x));
+  // At most four labels beside 0 in a narrow panel: every 1, 2 or 5 of a decade.
+  const double decade = std::pow(10.0, std::floor(std::log10(std::max(reach, 1e-3))));
+  const double step = reach > 5.0 * decade   ? 5.0 * decade
+                      : reach > 2.0 * decade ? 2.0 * decade
+                                             : decade;
+  for (const double tick : {-step, 0.0, step, 2.0 * step}) panel.xTicks.push_back(tick);
   panel.curves.push_back(std::move(cost));
   return panel;
 }

@@ -292,6 +292,15 @@ List effectsReading(const EffectsResults& results) {
        {"Sum", "effects do not add up: with friction go rotation, springs and dashpots."}}};
 }
 
+std::string profilesWords(const std::vector<VariantSummary>& variants) {
+  const auto ran = std::ranges::count_if(variants, &VariantSummary::ran);
+  return std::string("Black: everything on.") +
+         (ran < static_cast<std::ptrdiff_t>(mostKeyNames)
+              ? ""
+              : fmt::format(" Of {}, those {} that change a profile most; effects.csv has all.",
+                            counted(static_cast<std::size_t>(ran), "effect"), mostKeyNames - 1));
+}
+
 /// @param number  of the engine, from 1
 void addStudy(Report& report, const EffectsResults& results, const std::string& engine,
               std::size_t number) {
@@ -308,11 +317,10 @@ void addStudy(Report& report, const EffectsResults& results, const std::string& 
   Drawings cost = drawingsOf(report.figures, prefix + "cost");
   cost.side = false;
   blocks.push_back(std::move(cost));
-  blocks.push_back(effectTable(results, engine));
-  if (Table endpoints = endpointChanges(results, engine); !endpoints.rows.empty()) {
-    blocks.push_back(Heading{"What each effect changes in the endpoints"});
-    blocks.push_back(std::move(endpoints));
-  }
+  blocks.push_back(Details{"Time, contacts and change of each profile, effect by effect",
+                           {effectTable(results, engine)}});
+  if (Table endpoints = endpointChanges(results, engine); !endpoints.rows.empty())
+    blocks.push_back(Details{"What each effect changes in the endpoints", {std::move(endpoints)}});
   Drawings profiles = drawingsOf(report.figures, prefix + "profile_");
   if (profiles.names.empty()) return;
   const bool faint = std::ranges::any_of(variants, [](const VariantSummary& variant) {
@@ -320,11 +328,11 @@ void addStudy(Report& report, const EffectsResults& results, const std::string& 
              return change.detected == std::optional(false);
            });
   });
-  blocks.push_back(Heading{"Profiles with and without"});
-  blocks.push_back(
-      Paragraph{std::string("Black: everything on.") +
-                (faint ? " Grey: runs whose change of this field is not significant." : "")});
-  blocks.push_back(std::move(profiles));
+  blocks.push_back(Details{
+      "Profiles with and without each effect",
+      {Paragraph{profilesWords(variants) +
+                 (faint ? " Grey: runs whose change of this field is not significant." : "")},
+       std::move(profiles)}});
 }
 
 std::string yesOrNo(const std::optional<bool>& value) {
@@ -382,6 +390,7 @@ Report reportOf(const EffectsResults& results) {
                  engines);
   addDetails(report, effectiveOf(results, engines));
   addPackings(report, results.packings);
+  for (Section& section : report.sections) section.folded = !section.id.starts_with("effects-");
   report.tables = {{"effects.csv", effectsCsv(results)}};
   return report;
 }

@@ -1,10 +1,12 @@
 #include "reports/effects/report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "reports/common/engines.hpp"
 
@@ -127,15 +129,17 @@ OverviewCell savedCell(const VariantSummary* variant, const std::string& anchor)
   return cell;
 }
 
+/// By significance, then by size; what is not significant by its errors.
+std::pair<bool, double> rankOf(const FieldChange& change) {
+  const bool detected = change.detected.value_or(false);
+  return {detected, detected ? std::abs(change.change) : change.inErrors.value_or(0.0)};
+}
+
 /// The largest significant change; else the one with the most errors.
 const FieldChange* mostChanged(const VariantSummary& variant) {
-  const auto rank = [](const FieldChange& change) {
-    const bool detected = change.detected.value_or(false);
-    return std::pair(detected, detected ? std::abs(change.change) : change.inErrors.value_or(0.0));
-  };
   const FieldChange* most = nullptr;
   for (const FieldChange& change : variant.judged)
-    if (!most || rank(change) > rank(*most)) most = &change;
+    if (!most || rankOf(change) > rankOf(*most)) most = &change;
   return most;
 }
 
@@ -209,7 +213,7 @@ std::string effectsOf(const std::vector<VariantSummary>& all) {
                                     readable(100.0 * *costliest->saved,
                                              times(costliest->timeRatioError, 100.0)))
                       : "none is shown to cost time");
-  return listed(parts);
+  return fmt::format("{}", fmt::join(parts, ", and "));
 }
 
 std::string effectsNextStep(const EffectsResults& results, const std::vector<VariantSummary>& all) {
@@ -283,9 +287,17 @@ Names judgedFields(const std::vector<VariantSummary>& variants) {
 }
 
 Engines variantRuns(const EffectsResults& results, const std::string& engine) {
+  std::vector<VariantSummary> shown = variantSummaries(results, engine);
+  std::erase_if(shown, [](const VariantSummary& variant) { return !variant.ran(); });
+  std::ranges::stable_sort(shown, std::greater(), [](const VariantSummary& variant) {
+    const FieldChange* const most = mostChanged(variant);
+    return most ? rankOf(*most) : std::pair(false, 0.0);
+  });
+  shown.resize(std::min(shown.size(), mostKeyNames - 1), VariantSummary{});
   Engines runs;
   for (const EffectVariant& variant : results.variants) {
     if (variant.engine != engine) continue;
+    if (variant.isSwitched() && !findBy(shown, variant.effect, &VariantSummary::effect)) continue;
     EngineRuns of;
     of.name = variant.isSwitched() ? variantLabel(variant.effect) : "everything on";
     of.style = engineStyle(runs.size());
@@ -341,8 +353,8 @@ Overview effectsOverview(const EffectsResults& results) {
   for (const EngineRow& engine : results.engines)
     if (engine.status == Status::finished)
       said.add(engine.name, effectsOf(variantSummaries(results, engine.name)));
-  if (const std::string sentence = said.joined("On {}: {}"); !sentence.empty())
-    overview.conclusion.push_back(sentence + ".");
+  if (const std::string sentence = said.joined("on {}: {}"); !sentence.empty())
+    overview.conclusion.push_back(capitalised(sentence) + ".");
   if (std::string next = effectsNextStep(results, all); !next.empty())
     overview.conclusion.push_back(std::move(next));
   return overview;

@@ -287,8 +287,7 @@ Report compareReport(const CompareResults& results) {
   addSeries(report, results, engines);
   addDetails(report, effectiveOf(results, engines));
   if (!results.packings.empty()) addPackings(report, results.packings);
-  for (Section& section : report.sections)
-    section.folded = !contains({"agreement", "pictures", "profiles"}, section.id);
+  report.foldAllBut({"agreement", "pictures", "profiles"});
   report.tables = averageTables(results);
   report.tables.emplace_back("endpoints.csv", endpointsCsv(results));
   report.tables.emplace_back("agreement.csv", agreementCsv(results));

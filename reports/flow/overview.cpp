@@ -478,6 +478,18 @@ Overview compareOverview(const CompareResults& results) {
                              true,
                              {lawOf(results, engine), averagesOf(results, engine),
                               costOfEngine(engine), failedRunsOf(results, engine)}});
+  const Engines engines = engineRuns(results);
+  if (std::ranges::any_of(engines, [](const auto& one) { return runsOfOtherLaw(one) > 0; })) {
+    const bool declared = std::ranges::any_of(overview.rows, [](const OverviewRow& row) {
+      return std::ranges::find(row.cells.begin() + 1, row.cells.end(), Verdict::modelDifference,
+                               &OverviewCell::verdict) != row.cells.end();
+    });
+    overview.states.push_back(
+        {Verdict::modelDifference,
+         std::string("result files of another law than the case's, not checked by any "
+                     "declaration") +
+             (declared ? "; elsewhere: true to the law that it declares" : "")});
+  }
   overview.conclusion = compareConclusion(results);
   return overview;
 }

@@ -112,30 +112,32 @@ std::string forcesInWords(const LockstepRow& row) {
 }
 
 Table verdictTable(const LockstepFindings& findings) {
-  Table table{{engineNames("engine"), "verdict", numbers("ε_eq")}};
-  std::size_t times = 0;
+  Table table{{engineNames("engine"), "verdict", numbers("ε_eq"),
+               "forces of the first step differ by", "deviation found"}};
   for (const LockstepRow& row : findings.rows)
-    if (times == 0)
-      for (const LockstepSeparation& at : row.separations) {
-        table.columns.push_back(
-            numbers(fmt::format("largest difference after {} ms [d]", readable(1e3 * at.time))));
-        ++times;
-      }
-  table.columns.emplace_back("forces of the first step differ by");
-  table.columns.emplace_back("deviation found");
+    table.rows.push_back({{row.engine,
+                           {describeVerdict(row, findings.rules),
+                            {row.reason, describeResolution(row, findings.rules),
+                             describeReading(row, findings.rules)},
+                            lockstepState(row, findings.rules),
+                            true},
+                           readable(row.equivalent),
+                           forcesInWords(row),
+                           orDash(describeTerm(row))}});
+  return table;
+}
+
+/// The largest difference of each engine that was measured, at each time.
+Table timeTable(const LockstepFindings& findings) {
+  Table table{{engineNames("engine")}};
   for (const LockstepRow& row : findings.rows) {
-    TableRow line{{row.engine,
-                   {describeVerdict(row, findings.rules),
-                    {row.reason, describeResolution(row, findings.rules),
-                     describeReading(row, findings.rules)},
-                    lockstepState(row, findings.rules),
-                    true},
-                   readable(row.equivalent)}};
-    for (std::size_t k = 0; k < times; ++k)
-      line.cells.push_back(k < row.separations.size() ? readable(row.separations[k].largest)
-                                                      : absentText);
-    line.cells.push_back(forcesInWords(row));
-    line.cells.push_back(orDash(describeTerm(row)));
+    if (row.separations.empty()) continue;
+    if (table.rows.empty())
+      for (const LockstepSeparation& at : row.separations)
+        table.columns.push_back(numbers(fmt::format("after {} ms", readable(1e3 * at.time))));
+    TableRow line{{row.engine}};
+    for (const LockstepSeparation& at : row.separations)
+      line.cells.emplace_back(readable(at.largest));
     table.rows.push_back(std::move(line));
   }
   return table;
@@ -221,6 +223,7 @@ std::vector<Figure> lockstepFigures(const LockstepResults& results) {
   panel.logX = panel.logY = true;
   panel.level = rules.rounding;
   Curve referencePerturbation;
+  std::string ofRounding = "rounding of the engine's precision";  // the first one names them all
   for (const LockstepRow& row : results.lockstep.rows) {
     const auto engine = std::ranges::find(results.engines, row.engine, &EngineRow::name);
     if (engine == results.engines.end() || row.track.empty()) continue;
@@ -232,9 +235,11 @@ std::vector<Figure> lockstepFigures(const LockstepResults& results) {
     for (std::size_t k = 0; k < std::min(row.track.size(), row.trackTime.size()); ++k)
       curve.points.push_back({row.trackTime[k], row.track[k], {}});
     panel.curves.push_back(std::move(curve));
-    Curve rounding =
-        greyCurve(row, "rounding of " + row.engine, 3, 1.0, &LockstepSeparation::rounding);
-    if (!rounding.points.empty()) panel.curves.push_back(std::move(rounding));
+    Curve rounding = greyCurve(row, ofRounding, 3, 1.0, &LockstepSeparation::rounding);
+    if (!rounding.points.empty()) {
+      panel.curves.push_back(std::move(rounding));
+      ofRounding.clear();
+    }
     if (referencePerturbation.points.empty())
       referencePerturbation = greyCurve(
           row,
@@ -394,6 +399,8 @@ Blocks lockstepTables(const LockstepFindings& findings) {
   Blocks blocks = {
       verdictTable(findings),
       Details{"Contacts in the windows, and the first difference", {contactTable(findings)}}};
+  if (Table times = timeTable(findings); !times.rows.empty())
+    blocks.push_back(Details{"Largest difference over time [d]", {std::move(times)}});
   if (Table causes = causeTable(findings); !causes.rows.empty())
     blocks.push_back(Details{"Which convention acts first", {std::move(causes)}});
   return blocks;
@@ -452,11 +459,13 @@ Report reportOf(const LockstepResults& results) {
   for (const LockstepRow& row : results.lockstep.rows)
     if (row.effective) effective.push_back({row.engine, &*row.effective, &results.effects});
   report.figures = lockstepFigures(results);
+  report.section("over-time", "Difference from the mirror over time", "Over time").blocks = {
+      drawingsOf(report.figures, "lockstep_")};
   report.section("lockstep", "Engines and their mirrors").blocks = lockstepTables(results.lockstep);
-  report.section("over-time", "Over time").blocks = {drawingsOf(report.figures, "lockstep_")};
   report.section("reading", "How to read it").blocks = {lockstepReading(results.lockstep)};
   addDetails(report, effective);
   addPackings(report, results.packings);
+  report.foldAllBut({"over-time", "lockstep"});
   report.tables = {{"lockstep.csv", lockstepCsv(results)}};
   report.checks = matrixChecks(report);
   return report;

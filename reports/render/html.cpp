@@ -412,13 +412,16 @@ std::string htmlFoot(const Report& report, const DrawnFigures& drawings) {
   std::string text;
   if (!setup.toml.empty())
     text += fmt::format(
-        "<h2 id=\"case\">{}</h2>\n<details><summary>All its <code>extends</code> "
-        "merged{}</summary>\n<pre>{}</pre>\n</details>\n",
+        "<details class=\"section\"><summary><h2 id=\"case\">{}</h2></summary>\n<p>All its "
+        "<code>extends</code> merged{}.</p>\n<pre>{}</pre>\n</details>\n",
         mathHtml(report.caseHeading),
         setup.file.empty() ? "" : fmt::format(", from <code>{}</code>", escaped(setup.file)),
         escaped(setup.toml));
   if (!report.head.kind.empty()) {
-    text += "<h2 id=\"rebuild\">Files and rebuilding</h2>\n<p>" + filesOf(report, drawings);
+    text +=
+        "<details class=\"section\"><summary><h2 id=\"rebuild\">Files and rebuilding</h2>"
+        "</summary>\n<p>" +
+        filesOf(report, drawings);
     if (drawings.ofSite)
       text +=
           " The results folder has all the rest: results.json (everything), larger tables, scripts "
@@ -432,7 +435,7 @@ std::string htmlFoot(const Report& report, const DrawnFigures& drawings) {
       text += "<p>These results came from</p>\n<pre>" + escaped(report.head.command) + "</pre>\n";
     text +=
         "<p>and this page is rebuilt from <code>results.json</code>, without running anything, "
-        "by</p>\n<pre>crossgrain report DIR</pre>\n";
+        "by</p>\n<pre>crossgrain report DIR</pre>\n</details>\n";
   }
   return text +
          fmt::format(

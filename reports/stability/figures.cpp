@@ -36,7 +36,7 @@ Figure mapOf(const StabilityResults& results, const std::vector<HardGroup>& grou
   figure.caption = "The worst verdict of each engine in each case.";
   figure.panels.push_back(std::move(panel));
   figure.panelWidth = 120 * static_cast<int>(std::max<std::size_t>(engines.size(), 3)) + 40;
-  figure.panelHeight = 19 * static_cast<int>(groups.size()) + 90;
+  figure.panelHeight = 19 * static_cast<int>(groups.size()) + 130;
   figure.rowNames = 210;
   figure.png = true;
   return figure;

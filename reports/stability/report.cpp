@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "reports/common/blocks.hpp"
@@ -319,6 +320,23 @@ Table variantTable(const StabilityResults& results, const HardGroup& group) {
   return table;
 }
 
+/// "unstable: odd-one; degraded: grain": engines by what their worst run is; empty where every
+/// engine is stable.
+std::string worstEngines(const StabilityResults& results, const HardGroup& group) {
+  Names parts;
+  for (const auto& [verdict, word] : stabilityNames) {
+    Names who;
+    for (const EngineRow& engine : results.engines)
+      if (const StabilityRun* run = worstRun(results, engine.name, group);
+          run && run->verdict == verdict)
+        who.push_back(engine.name);
+    if (!who.empty() && verdict != Verdict::pass)
+      parts.insert(parts.begin(),
+                   fmt::format("{}: {}", spaced(std::string(word)), listedShortly(who, 3)));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 bool allStable(const StabilityResults& results, const HardGroup& group) {
   return std::ranges::all_of(results.engines, [&](const EngineRow& engine) {
     const StabilityRun* run = worstRun(results, engine.name, group);
@@ -326,9 +344,8 @@ bool allStable(const StabilityResults& results, const HardGroup& group) {
   });
 }
 
-/// Folded where every engine is stable in it.
-void addHardCase(Report& report, const StabilityResults& results, const HardGroup& group,
-                 std::size_t number) {
+Blocks hardCaseBlocks(const Report& report, const StabilityResults& results, const HardGroup& group,
+                      std::size_t number) {
   const HardCase& first = *group.variants.front();
   Blocks blocks = {
       Paragraph{areTransforms(results) ? "The same has to happen after every transformation."
@@ -347,11 +364,66 @@ void addHardCase(Report& report, const StabilityResults& results, const HardGrou
   blocks.push_back(Details{
       "The case as it was run",
       {Paragraph{first.file + ", all its extends merged; the first variant."}, Code{first.toml}}});
-  Section& section = report.section(fmt::format("case_{}", number), spaced(group.name));
-  if (allStable(results, group))
-    section.blocks.push_back(Details{"✓ stable on every engine", std::move(blocks)});
-  else
-    section.blocks = std::move(blocks);
+  return blocks;
+}
+
+/// A folded section for each case in which an engine is unstable, degraded or was not run, the
+/// worst first; one for those that engines refused alone, and one for those that all pass.
+void addHardCases(Report& report, const StabilityResults& results,
+                  const std::vector<HardGroup>& groups) {
+  const auto worstOfAll = [&](const HardGroup& group) {
+    Verdict worst = Verdict::notApplicable;
+    for (const EngineRow& engine : results.engines)
+      if (const StabilityRun* run = worstRun(results, engine.name, group))
+        worst = moreSevere(worst, run->verdict);
+    return worst;
+  };
+  const auto nameOfCase = [&](std::size_t g) { return spaced(groups[g].name); };
+  const auto idOf = [](std::size_t g) { return fmt::format("case_{}", g + 1); };
+  std::vector<std::size_t> stable, refused;
+  for (const Verdict verdict : {Verdict::fail, Verdict::borderline, Verdict::notMeasured})
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      if (worstOfAll(groups[g]) == verdict)
+        report
+            .section(idOf(g),
+                     fmt::format("{}: {}", nameOfCase(g), worstEngines(results, groups[g])),
+                     nameOfCase(g))
+            .blocks = hardCaseBlocks(report, results, groups[g], g + 1);
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    if (const Verdict worst = worstOfAll(groups[g]);
+        worst == Verdict::pass || worst == Verdict::notApplicable)
+      (allStable(results, groups[g]) ? stable : refused).push_back(g);
+  const auto addTogether = [&](const char* id, const std::string& title,
+                               const std::vector<std::size_t>& cases) {
+    if (cases.empty()) return;
+    Blocks blocks;
+    for (const std::size_t g : cases) {
+      blocks.push_back(Heading{nameOfCase(g), idOf(g)});
+      std::ranges::move(hardCaseBlocks(report, results, groups[g], g + 1),
+                        std::back_inserter(blocks));
+    }
+    report.section(id, title + ": " + counted(cases.size(), "case"), capitalised(id)).blocks =
+        std::move(blocks);
+  };
+  const std::string same = areTransforms(results) ? "the same" : "stable";
+  addTogether("refused", capitalised(same) + " where not refused", refused);
+  addTogether("stable", "✓ " + same + " on every engine", stable);
+}
+
+/// The map, the worst moments of the first runs that are unstable, and the numbers.
+void addMatrix(Report& report, const StabilityResults& results,
+               const std::vector<HardGroup>& groups) {
+  constexpr std::size_t inSight = 4;
+  Blocks& blocks = report.section("matrix", "Cases by engine", "Summary").blocks;
+  blocks.push_back(drawingsOf(report.figures, "stability_map"));
+  Drawings worst = drawingsOf(report.pictures, Picture::Shows::worst);
+  worst.names.resize(std::min(worst.names.size(), inSight));
+  if (!worst.names.empty()) {
+    blocks.push_back(Heading{"Worst moments of unstable runs"});
+    blocks.push_back(std::move(worst));
+  }
+  blocks.push_back(
+      Details{"Values of the measures, case by case", {stabilityMatrix(results, groups)}});
 }
 
 Table scoreTable(const StabilityResults& results) {
@@ -475,13 +547,12 @@ Report reportOf(const StabilityResults& results) {
   Report report{{results.head, results.engines, stabilityOverview(results)}, results.elapsed};
   report.figures = stabilityFigures(results);
   report.pictures = stabilityPictures(results);
-  report.section("matrix", "Cases by engine", "Summary")
-      .blocks.push_back(stabilityMatrix(results, groups));
-  for (std::size_t g = 0; g < groups.size(); ++g) addHardCase(report, results, groups[g], g + 1);
-  report.section("scores", "All numbers").blocks = {
-      Details{"Engine × case × variant", {scoreTable(results)}}};
-  report.section("map", "As a picture").blocks = {drawingsOf(report.figures, "stability_map")};
+  addMatrix(report, results, groups);
+  addHardCases(report, results, groups);
+  report.section("scores", "All numbers: engine, case and variant", "All numbers").blocks = {
+      scoreTable(results)};
   addEngines(report);
+  report.foldAllBut({"matrix"});
   report.tables = {{"stability.csv", stabilityCsv(results)}};
   report.checks = stabilityChecks(results);
   return report;
