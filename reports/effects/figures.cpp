@@ -37,8 +37,13 @@ Panel costPanel(const Variants& variants) {
     if (variants[k].timeRatioError) point.error = 100.0 * *variants[k].timeRatioError;
     cost.points.push_back(point);
   }
-  double reach = 0.0;
-  for (const Point& point : cost.points) reach = std::max(reach, std::abs(point.x));
+  Range range;
+  for (const Point& point : cost.points) {
+    range.low = std::min(range.low, point.x - point.error.value_or(0.0));
+    range.high = std::max(range.high, point.x + point.error.value_or(0.0));
+  }
+  const double reach = std::max(-range.low, range.high);
+  if (reach > 0.0) panel.xRange = Range{range.low - 0.05 * reach, range.high + 0.05 * reach};
   // At most four labels beside 0 in a narrow panel: every 1, 2 or 5 of a decade.
   const double decade = std::pow(10.0, std::floor(std::log10(std::max(reach, 1e-3))));
   const double step = reach > 5.0 * decade   ? 5.0 * decade
@@ -165,6 +170,9 @@ std::vector<Figure> effectFigures(const EffectsResults& results) {
          profileFigures(results, variantRuns(results, engine.name), unchanged(variants))) {
       if (figure.name == "overview") continue;
       figure.name = prefix + figure.name;
+      // A key of long names is a column above the plot, which keeps its own height.
+      constexpr int keyLine = 20;  // [px]
+      figure.panelHeight += keyLine * static_cast<int>(figure.panels.front().curves.size());
       figures.push_back(std::move(figure));
     }
   }
