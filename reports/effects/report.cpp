@@ -293,12 +293,11 @@ List effectsReading(const EffectsResults& results) {
 }
 
 std::string profilesWords(const std::vector<VariantSummary>& variants) {
-  const auto ran = std::ranges::count_if(variants, &VariantSummary::ran);
-  return std::string("Black: everything on.") +
-         (ran < static_cast<std::ptrdiff_t>(mostKeyNames)
-              ? ""
-              : fmt::format(" Of {}, those {} that change a profile most; effects.csv has all.",
-                            counted(static_cast<std::size_t>(ran), "effect"), mostKeyNames - 1));
+  const auto ran = static_cast<std::size_t>(std::ranges::count_if(variants, &VariantSummary::ran));
+  const std::string others =
+      fmt::format(" Of {}, those {} that change a profile most; effects.csv has all.",
+                  counted(ran, "effect"), mostVariants);
+  return "Black: everything on." + (ran > mostVariants ? others : std::string());
 }
 
 /// @param number  of the engine, from 1

@@ -67,8 +67,11 @@ const EffectVariant* wholeVariant(const EffectsResults& results, const std::stri
 /// Fields that any variant judges, in the order of the results.
 Names judgedFields(const std::vector<VariantSummary>& variants);
 
-/// The runs of one engine with everything on and with each effect switched off, each as if it were
-/// an engine of its own.
+/// Effects that plots of profiles have, beside everything on: each has a colour of its own.
+inline constexpr std::size_t mostVariants = 6;
+
+/// The runs of one engine with everything on and with each of the mostVariants effects switched off
+/// that change a profile most, each as if it were an engine of its own.
 Engines variantRuns(const EffectsResults& results, const std::string& engine);
 
 /// Of an effect: "bottom friction", "tension", "double precision"; and of the run that lacks it:

@@ -293,7 +293,7 @@ Engines variantRuns(const EffectsResults& results, const std::string& engine) {
     const FieldChange* const most = mostChanged(variant);
     return most ? rankOf(*most) : std::pair(false, 0.0);
   });
-  shown.resize(std::min(shown.size(), mostKeyNames - 1), VariantSummary{});
+  shown.resize(std::min(shown.size(), mostVariants), VariantSummary{});
   Engines runs;
   for (const EffectVariant& variant : results.variants) {
     if (variant.engine != engine) continue;
