@@ -368,7 +368,8 @@ Blocks hardCaseBlocks(const Report& report, const StabilityResults& results, con
 }
 
 /// A folded section for each case in which an engine is unstable, degraded or was not run, the
-/// worst first; one for those that engines refused alone, and one for those that all pass.
+/// worst first; one for those that some did not run and the others pass, one for those that all pass,
+/// and one for those that all refused.
 void addHardCases(Report& report, const StabilityResults& results,
                   const std::vector<HardGroup>& groups) {
   const auto worstOfAll = [&](const HardGroup& group) {
@@ -380,7 +381,7 @@ void addHardCases(Report& report, const StabilityResults& results,
   };
   const auto nameOfCase = [&](std::size_t g) { return spaced(groups[g].name); };
   const auto idOf = [](std::size_t g) { return fmt::format("case_{}", g + 1); };
-  std::vector<std::size_t> stable, refused;
+  std::vector<std::size_t> stable, refused, byAll;
   for (const Verdict verdict : {Verdict::fail, Verdict::borderline, Verdict::notMeasured})
     for (std::size_t g = 0; g < groups.size(); ++g)
       if (worstOfAll(groups[g]) == verdict)
@@ -392,7 +393,10 @@ void addHardCases(Report& report, const StabilityResults& results,
   for (std::size_t g = 0; g < groups.size(); ++g)
     if (const Verdict worst = worstOfAll(groups[g]);
         worst == Verdict::pass || worst == Verdict::notApplicable)
-      (allStable(results, groups[g]) ? stable : refused).push_back(g);
+      (allStable(results, groups[g]) ? stable
+       : worst == Verdict::pass      ? refused
+                                     : byAll)
+          .push_back(g);
   const auto addTogether = [&](const char* id, const std::string& title,
                                const std::vector<std::size_t>& cases) {
     if (cases.empty()) return;
@@ -406,8 +410,9 @@ void addHardCases(Report& report, const StabilityResults& results,
         std::move(blocks);
   };
   const std::string same = areTransforms(results) ? "the same" : "stable";
-  addTogether("refused", capitalised(same) + " where not refused", refused);
+  addTogether("refused", capitalised(same) + " where it was run", refused);
   addTogether("stable", "✓ " + same + " on every engine", stable);
+  addTogether("unexamined", "Refused by every engine", byAll);
 }
 
 /// The map, the worst moments of the first runs that are unstable, and the numbers.

@@ -87,8 +87,12 @@ TEST(CompareOverview, FilesOfAnotherLaw_AreSaidInTheMatrixAndTheConclusion) {
     run.hasOtherLaw = another;
     results.runs.push_back(run);
   }
-  const OverviewCell cell = rowNamed(compareOverview(results), "theirs").cells[0];
-  EXPECT_EQ(shown(cell), "model_difference in 1 of 2 runs");
+  const Overview overview = compareOverview(results);
+  EXPECT_EQ(shown(rowNamed(overview, "theirs").cells[0]), "model_difference in 1 of 2 runs");
+  const VerdictWords* const meaning =
+      findBy(overview.states, Verdict::modelDifference, &VerdictWords::verdict);
+  ASSERT_TRUE(meaning);
+  EXPECT_TRUE(meaning->words.starts_with("result files of another law")) << meaning->words;
   EXPECT_EQ(
       compareConclusion(results)[1],
       "Forces in 1 of 2 runs of theirs are not those of the case's law: the notes say where.");

@@ -145,6 +145,28 @@ StabilityResults transforms(const std::vector<const char*>& engines) {
   return results;
 }
 
+/// A case that nothing ran is not among those that are stable somewhere.
+TEST(StabilityReport, Cases_StandByWhatBecameOfThem) {
+  StabilityResults results = sample::stabilityResults();
+  const auto titles = [&] {
+    std::vector<std::string> found;
+    for (const Section& section : reportOf(results).sections) found.push_back(section.title);
+    return found;
+  };
+  const auto has = [](const std::vector<std::string>& all, const char* title) {
+    return std::ranges::find(all, title) != all.end();
+  };
+  EXPECT_TRUE(has(titles(), "pile: unstable: odd-one; degraded: grain"));
+  EXPECT_TRUE(has(titles(), "Stable where it was run: 1 case"));
+  for (StabilityRun& run : results.runs)
+    if (run.name == "gas") run.verdict = Verdict::notApplicable;
+  EXPECT_TRUE(has(titles(), "Refused by every engine: 1 case"));
+  EXPECT_FALSE(has(titles(), "Stable where it was run: 1 case"));
+  for (StabilityRun& run : results.runs)
+    if (run.name == "gas") run.verdict = Verdict::pass;
+  EXPECT_TRUE(has(titles(), "✓ stable on every engine: 1 case"));
+}
+
 TEST(StabilityOverview, OfTransforms_NamesWhatDiffers) {
   StabilityResults results = transforms({"mine", "theirs"});
   EXPECT_EQ(reportOf(results).overview.conclusion[0], "mine and theirs: both runs the same.");
