@@ -368,8 +368,8 @@ Blocks hardCaseBlocks(const Report& report, const StabilityResults& results, con
 }
 
 /// A folded section for each case in which an engine is unstable, degraded or was not run, the
-/// worst first; one for those that some did not run and the others pass, one for those that all pass,
-/// and one for those that all refused.
+/// worst first; one for those that some did not run and the others pass, one for those that all
+/// pass, and one for those that all refused.
 void addHardCases(Report& report, const StabilityResults& results,
                   const std::vector<HardGroup>& groups) {
   const auto worstOfAll = [&](const HardGroup& group) {
