@@ -214,8 +214,7 @@ DiskGroupOf<D> readDisks(Reader in) {
   checkArrangement(in);
   in.check(group.count() <= group.places.size(), "choose", "must be at most {}, the places there",
            group.places.size());
-  in.check(!in.has("mass") || !in.has("density"), "density",
-           "stands beside mass: give one of the two");
+  in.notBeside("density", "mass");
   if (!in.has("mass") && !in.has("density")) in.failMissing("mass", "or density");
   if (group.shape) {
     makeConvex(in, group);

@@ -54,7 +54,7 @@ const Section<Collision>& collisionKeys() {
            {"angle", "degrees", "–", "(-90, 90)", "instead of `psi`: Ψ_i = tan(angle)"},
            [](Reader& in, const std::string& key, Collision& c) {
              if (!in.has(key)) return static_cast<void>(in.take(key));
-             in.check(!in.has("psi"), key, "stands beside psi, its tangent: give one of the two");
+             in.notBeside(key, "psi", ", its tangent");
              readSweep(in, key, c.psi, inside(-90.0, 90.0, "degrees"));
              for (double& psi : c.psi) psi = std::tan(psi * std::numbers::pi / 180.0);
            }),
@@ -247,7 +247,7 @@ void checkShape(Reader& in, const Collision& c) {
     in.check(second != "body", "second", "is of convex bodies: give shape");
     return;
   }
-  in.check(!in.has("radius"), "radius", "stands beside shape: give one of the two");
+  in.notBeside("radius", "shape");
   for (const char* const key : {"approach", "counter_spin"})
     in.check(!in.has(key), key,
              "is of disks and spheres: the centre of a convex body moves as v_n, "
@@ -304,11 +304,8 @@ void readCollision(Reader& in, Collision& c, int dimension) {
   const Reader margins = in.section("margins");
   collisionKeys().read(in, c);
   if (!in.has("psi") && !in.has("angle")) in.failMissing("psi");
-  if (in.has("speed"))
-    in.check(!in.has("vn"), "speed",
-             "stands beside vn, its part along the normal: give one of the two");
-  else if (!in.has("vn"))
-    in.failMissing("vn");
+  in.notBeside("speed", "vn", ", its part along the normal");
+  if (!in.has("speed") && !in.has("vn")) in.failMissing("vn");
   checkShape(in, c);
   checkWall(in, c);
   if (in.has("shape")) dimension == 3 ? readConvexPair<3>(in, c) : readConvexPair<2>(in, c);

@@ -200,7 +200,7 @@ void setHertz(const Reader& in, LawInput& law, bool ofTwoBodies) {
 void setRestitution(const Reader& in, ContactLaw& law) {
   in.check(law.damper == Damper::critical && law.normal != NormalLaw::polynomial, "e_n",
            "a rigid law takes it, and a linear or Hertz law with damper = \"critical\"");
-  in.check(!in.has("gn"), "e_n", "stands beside gn: give one of the two");
+  in.notBeside("e_n", "gn");
   in.check(law.en > 0.0, "e_n", "a soft law needs it > 0");
   const double log = std::log(law.en);
   const double fraction = law.normal == NormalLaw::hertz ? std::sqrt(5.0 / 6.0) : 1.0;
@@ -279,7 +279,7 @@ void settleCohesion(const Reader& in, LawInput& law) {
     in.check(law.normal == NormalLaw::linear, "cohesion",
              "\"elasto_plastic\" is piecewise linear: it needs normal = \"linear\"");
   if (bySurface) {
-    in.check(!in.has("w") || !in.has("gamma"), "gamma", "stands beside w: give one of the two");
+    in.notBeside("gamma", "w");
     const char* const given = in.has("gamma") ? "gamma" : "w";
     const double value = in.has("gamma") ? law.gamma : law.w;
     if (law.cohesion == CohesionLaw::jkr)

@@ -140,6 +140,11 @@ class Reader {
   /// "stands beside FIRST: rule".
   std::string onlyOne(std::initializer_list<const char*> keys,
                       std::string_view rule = "give one of the two");
+  /// Of two keys of which either says all: both are an error at `key`, "stands beside OTHER…".
+  /// @param which  what the other is, after its name
+  void notBeside(std::string_view key, std::string_view other, std::string_view which = "") const {
+    check(!has(key) || !has(other), key, "stands beside {}{}: give one of the two", other, which);
+  }
 
   /// Reports the first unknown key, else the first missing one.
   void finish() const;

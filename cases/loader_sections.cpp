@@ -95,8 +95,7 @@ void setMasses(const Reader& in, const Cell& cell, ParticlesInput& p) {
       if (!in.has(mass)) in.failMissing(mass);
     return;
   }
-  for (const char* const mass : {"small_mass", "large_mass"})
-    in.check(!in.has(mass), "density", "stands beside {}: give one of the two", mass);
+  for (const char* const mass : {"small_mass", "large_mass"}) in.notBeside("density", mass);
   p.smallMass = massOf(in, p.density, p.smallRadius, cell.height);
   p.largeMass = massOf(in, p.density, p.largeRadius, cell.height);
 }
@@ -110,8 +109,7 @@ void setNumbers(Reader& in, const Cell& cell, ParticlesInput& p) {
     return;
   }
   for (const char* const number : {"small", "large"})
-    in.check(!in.has(number), "volume_fraction",
-             "stands beside {}, a number of disks: give one of the two", number);
+    in.notBeside("volume_fraction", number, ", a number of disks");
   if (share.empty())
     in.failMissing("large_number_share", "or large_mass_share: 0 if there are no large disks");
   double largeFraction = p.largeNumberShare;

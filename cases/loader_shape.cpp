@@ -119,7 +119,7 @@ TurnOf<D> givenTurn(const Reader& in, const DisksInput<D>& group) {
 
 template <int D>
 void makeConvex(const Reader& in, DisksInput<D>& group) {
-  in.check(!in.has("radius"), "radius", "stands beside shape: give one of the two");
+  in.notBeside("radius", "shape");
   in.check(group.radiusSpread == 0.0, "radius_spread", "is of disks and spheres");
   ShapeOf<D>& shape = *group.shape;
   const FrameOf<D> frame = intoOwnFrame(shape);

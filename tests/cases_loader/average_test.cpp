@@ -268,6 +268,10 @@ TEST_F(Average, StartFile_ShapeOfARow) {
                  "[[assembly.disks]]\nposition = [8, 1]\nmass = 3\nshape = { box = [2, 1] }\n"
                  "[[assembly.disks]]\nposition = [4, 1]\nmass = 1\nvelocity = [-1, 0]\nradius = "
                  "0.5\n");
+  const auto boxOf = [&](const std::string& mass) {
+    return head + "[[assembly.disks]]\nposition = [8, 1]\nshape = { box = [2, 1] }\n" + mass;
+  };
+  expectSameStart<2>(boxOf("density = 2\ninertia = 0.3\n"), boxOf("mass = 4\ninertia = 0.3\n"));
   for (const auto& [text, message] :
        {std::pair{"x,y,shape\n0,1,a\n3,1,d\n",
                   "start.csv:3: shape = d: is no shape of [assembly.start]"},
