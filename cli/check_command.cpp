@@ -157,9 +157,15 @@ void printChecked(const json& checked, const CommandLine& line) {
   if (differs) say("  -v prints the differences from the scene\n");
   if (!checked.contains("prediction")) return;
   const json& prediction = checked["prediction"];
-  say("  predicted time of compare: {} on one core, {} of it for packings; steps were timed on "
-      "{}\n",
-      lasting(number(prediction, "total_s")), lasting(number(prediction, "preparing_s")),
+  const auto looks = checked["flow"]["looks"].get<std::vector<int>>();
+  const double packings = looks.back(), first = looks.front() / packings;
+  say("  predicted time of compare: {} on one core for all {} packings, {} of it to prepare "
+      "them{}; "
+      "steps were timed on {}\n",
+      lasting(number(prediction, "total_s")), packings, lasting(number(prediction, "preparing_s")),
+      first < 1.0 ? fmt::format(" ({} for the first {}, after which decided engines stop)",
+                                lasting(first * number(prediction, "total_s")), looks.front())
+                  : "",
       prediction["timed_on"].get<std::string>());
 }
 
@@ -215,10 +221,9 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
     printMissing(line.run.engines);
   }
   if (line.json) fmt::print("{}\n", all.dump(2));
-  bool failed = false;
+  bool failed = false, any = false;
   Outcome outcome;
   for (const json& checked : all) {
-    bool any = false;
     for (const json& row : checked["engines"]) {
       const bool isMirror = row["mirrors"] != "";
       any |= row["can"] == true && !isMirror;
@@ -232,10 +237,14 @@ int checkCase(const CommandLine& line, const CheckOptions& options) {
           std::ranges::find(line.run.engines, name) != line.run.engines.end())
         reports::addOnce(outcome.fails, name + " cannot run it");
     }
-    if (!any && outcome.fails.empty()) outcome.fails.emplace_back("no engine can run it");
   }
   if (failed) return exitEngineFailed;
-  if (!outcome.fails.empty()) outcome.status = exitFailed;
+  if (!any) {  // nothing that was asked for can be done
+    outcome.status = exitBadInput;
+    outcome.failures.emplace_back("no engine that was asked for can run it");
+  } else if (!outcome.fails.empty()) {
+    outcome.status = exitFailed;
+  }
   return printOutcome(line, outcome);
 }
 

@@ -92,6 +92,7 @@ class Check(SystemTest):
         named = self.check(space, engines="grain,box2d-penalty")
         self.assert_status(named, FELL_SHORT)
         self.assertIn("status 1: box2d-penalty cannot run it\n", named.stdout)
+        self.assert_status(self.check(space, engines="box2d-penalty"), BAD_INPUT)
 
     def test_numbers_of_differences_are_in_their_sentences(self):
         done = self.held("check", COUETTE, "--no-timing", "--engines", "box2d-impulse")

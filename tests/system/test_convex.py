@@ -137,7 +137,7 @@ class Convex(SystemTest):
     @needs("box2d-v3")
     def test_too_many_vertices_are_refused_in_one_line(self):
         done = self.run_program("check", CASES / "convex/rolling-polygon-12.toml", "--no-timing", "--engines", "box2d-v3")
-        self.assert_status(done, FELL_SHORT)
+        self.assert_status(done, BAD_INPUT)
         self.assertIn("has polygons of at most 8 vertices, not 12", done.stdout + done.stderr)
 
     def kept(self, case, *changes):

@@ -694,7 +694,7 @@ class Chipmunk(BuiltEngine, RigidEngine, Peer):
         """Not by an exception through Chipmunk's C, when two such disks meet. The table of pairs ends before the fifth."""
         case = self.write("light.toml", LIGHT.replace("{laws}", str(CASES / "laws")))
         done = self.run_program("check", case, "--engines", "chipmunk", "--set=run.may_differ=['normal']")
-        self.assert_status(done, FELL_SHORT)
+        self.assert_status(done, BAD_INPUT)
         self.assertRegex(done.stdout, "chipmunk +cannot: .*overdamped")
 
 
