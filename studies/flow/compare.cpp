@@ -149,14 +149,15 @@ std::string neutralNote(const Case& setup, const Campaign& campaign, bool lockst
 constexpr double shareOfCauses = 0.2;
 
 void addCauses(CompareResults& results, Campaign& campaign, const Case& setup,
-               const RunCommand& command, const CompareOptions& own) {
+               const RunCommand& command, const CompareOptions& own, double budget) {
   if (results.nothingJudged) return;
   if (own.noCauses) {
     results.notes.emplace_back("Causes of differences were not measured (--no-causes).");
     return;
   }
-  const double until = own.causes || own.causesOf ? std::numeric_limits<double>::infinity()
-                                                  : campaign.elapsed() / (1.0 - shareOfCauses);
+  const double until = own.causes || own.causesOf
+                           ? std::numeric_limits<double>::infinity()
+                           : std::min(budget, campaign.elapsed() / (1.0 - shareOfCauses));
   UndeclaredTerms undeclared;
   if (results.lockstep)
     for (const LockstepRow& row : results.lockstep->rows)
@@ -180,13 +181,15 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   const Case& setup = work.setup();
   const RunCommand command = commandOf(work, own);
   const std::size_t starts = work.line.quick ? quickLockstepStarts : lockstepStarts;
-  const double budget = own.budget ? secondsOf(*own.budget) : setup.looks.budget;
+  // The case's own is of further analyses alone, as its verdicts do not depend on the machine.
+  const double hard = own.budget ? secondsOf(*own.budget) : std::numeric_limits<double>::infinity();
+  const double budget = own.budget ? hard : setup.looks.budget;
   Campaign campaign(setup, command, enginesOf(setup, command, own), work.store);
   campaign.askEngines(fewestToCompare);
   if (own.reference == noReference) beNeutral(campaign);
   campaign.preparePackings();
   LockstepFindings lockstep;
-  if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, starts, hasMirror);
+  if (setup.run.mirrors) lockstep = lockstepOf(campaign, setup, command, starts, hasMirror, hard);
   for (const LockstepRow& row : lockstep.rows) {  // the first verdicts; runs take longer
     const std::string all = describe(row, lockstep.rules);
     campaign.progress().say("lockstep: " + all.substr(0, all.find(';')));
@@ -221,7 +224,7 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
   std::ranges::move(fileNotes(results), std::back_inserter(results.notes));
   std::ranges::move(velocityNotes(results), std::back_inserter(results.notes));
   std::ranges::move(contactNotes(results), std::back_inserter(results.notes));
-  addCauses(results, campaign, setup, command, own);
+  addCauses(results, campaign, setup, command, own, hard);
   return results;
 }
 
@@ -321,7 +324,8 @@ const Study<CompareOptions, CompareResults> compareStudy = {
     [](CompareOptions& own, CommandLine&) {
       return std::vector<StudyOption>{
           {"--budget",
-           "start no interim analysis that would end after this time, e.g. 90s, 10m, 1h "
+           "begin nothing after the first analysis that would end after this time, e.g. 90s, 10m, "
+           "1h; lockstep before it ends in that time "
            "(default: looks.budget of the case)",
            &own.budget, "TIME"},
           {"--reference",

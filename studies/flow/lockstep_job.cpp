@@ -21,14 +21,20 @@ namespace crossgrain::inline studies {
 
 LockstepFindings lockstepOf(Campaign& campaign, const Case& setup, const RunCommand& command,
                             std::size_t starts,
-                            const std::function<bool(const EngineEntry&)>& takesPart) {
+                            const std::function<bool(const EngineEntry&)>& takesPart,
+                            double budget) {
   std::vector<LockstepEngine> engines;
   for (std::size_t e = 0; e < campaign.engines().size(); ++e)
     if (campaign.refusal(e).empty() && takesPart(campaign.engines()[e]))
       engines.push_back({campaign.engines()[e], campaign.version(e)});
   if (engines.empty()) return {};
+  const auto outOfTime = [&] {
+    return campaign.elapsed() > budget
+               ? fmt::format("not run: the budget of {:g} s was spent", budget)
+               : std::string();
+  };
   return holdAgainstMirrors(engines, setup,
-                            {campaign.packings(), campaign.dt(), starts, command.jobs},
+                            {campaign.packings(), campaign.dt(), starts, command.jobs, outOfTime},
                             campaign.store(), campaign.progress());
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,11 @@ namespace crossgrain::inline studies {
 
 /// Engines of a campaign, whose packings are there, against their mirrors.
 /// @param takesPart  which of those that can run the case
+/// @param budget     what is not finished so long after the campaign began is not measured [s]
 LockstepFindings lockstepOf(Campaign& campaign, const Case& setup, const RunCommand& command,
                             std::size_t starts,
-                            const std::function<bool(const EngineEntry&)>& takesPart);
+                            const std::function<bool(const EngineEntry&)>& takesPart,
+                            double budget = std::numeric_limits<double>::infinity());
 
 /// Late windows in a run of each of these engines of its own, on the packing after the one that
 /// spot checks average, where there is one; they stay in the store.

@@ -301,6 +301,16 @@ std::string nameOf(const std::string& what, const LockstepPlan& plan) {
   return fmt::format("{}-from-{}", what, plan.packings.size());
 }
 
+/// Time is over, for the reason in it.
+struct OutOfTime {
+  std::string reason;
+};
+
+/// @throws OutOfTime
+void requireTime(const LockstepPlan& plan) {
+  if (std::string reason = plan.outOfTime(); !reason.empty()) throw OutOfTime{std::move(reason)};
+}
+
 CachedTask<LockstepRow> taskOf(const LockstepEngine& engine, const Case& setup,
                                const LockstepPlan& plan, const std::vector<FlowState>& states,
                                const RunStore& store) {
@@ -311,14 +321,23 @@ CachedTask<LockstepRow> taskOf(const LockstepEngine& engine, const Case& setup,
   task.key = keyOf(setup, engine, plan);
   task.weight = entry.command ? 10.0 : 1.0;
   task.work = [&entry, &setup, &states, &store,
-               dt = plan.dt](const std::function<void(double)>& progress) {
+               &plan](const std::function<void(double)>& progress) {
     LockstepRow row;
     row.engine = entry.name;
+    const auto whileTime = [&](double fraction) {
+      progress(fraction);
+      if (fraction < 1.0) requireTime(plan);
+    };
     try {
+      requireTime(plan);
       const auto worker =
           startAudited(entry, store.scratch("lockstep-" + entry.name), setup.run.timeout);
       row.reason = noMirrorReason(entry, worker->capabilities(), setup);
-      if (row.reason.empty()) row = holdAgainstMirror(*worker, entry, setup, states, dt, progress);
+      if (row.reason.empty())
+        row = holdAgainstMirror(*worker, entry, setup, states, plan.dt, whileTime);
+    } catch (const OutOfTime& late) {
+      row.reason = late.reason;
+      return CachedTask<LockstepRow>::Outcome{std::move(row), false, late.reason};
     } catch (const UnsupportedScene& refusal) {
       row.reason = refusal.what();
     } catch (const EngineFailure& failure) {
@@ -331,8 +350,8 @@ CachedTask<LockstepRow> taskOf(const LockstepEngine& engine, const Case& setup,
   return task;
 }
 
-/// Where the in-house engine, which all mirrors are made of, cannot run the scene: engines are
-/// compared with each other all the same.
+/// Where the in-house engine, which all mirrors are made of, cannot run the scene, or has no time
+/// to: engines are compared with each other all the same.
 LockstepFindings withoutMirrors(const std::vector<LockstepEngine>& engines, const Case& setup,
                                 const std::string& why) {
   LockstepFindings findings;
@@ -340,8 +359,7 @@ LockstepFindings withoutMirrors(const std::vector<LockstepEngine>& engines, cons
   for (const LockstepEngine& engine : engines) {
     LockstepRow& row = findings.rows.emplace_back();
     row.engine = engine.entry.name;
-    row.reason = fmt::format("there is no mirror: {}, which mirrors are made of, {}",
-                             engineRegistry().front().name, why);
+    row.reason = why;
   }
   return findings;
 }
@@ -365,9 +383,17 @@ LockstepFindings holdAgainstMirrors(const std::vector<LockstepEngine>& engines, 
     try {
       states = statesAlongTheFlow(
           setup, plan.packings, plan.dt, plan.starts,
-          [&](double fraction) { progress.update(0, "states", fraction); }, plan.jobs);
+          [&](double fraction) {
+            requireTime(plan);
+            progress.update(0, "states", fraction);
+          },
+          plan.jobs);
     } catch (const UnsupportedScene& refusal) {
-      return withoutMirrors(engines, setup, refusal.what());
+      return withoutMirrors(engines, setup,
+                            fmt::format("there is no mirror: {}, which mirrors are made of, {}",
+                                        engineRegistry().front().name, refusal.what()));
+    } catch (const OutOfTime& late) {
+      return withoutMirrors(engines, setup, late.reason);
     }
     kept.emplace();
     for (const FlowState& state : states) kept->starts.push_back(state.start);

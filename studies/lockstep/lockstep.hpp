@@ -28,6 +28,8 @@ struct LockstepPlan {
   double dt = 0.0;                ///< the case's [s]
   std::size_t starts = 0;
   int jobs = 1;  ///< packings and engines side by side
+  /// Why no time is left; empty: there is some. What is then not finished is not measured.
+  std::function<std::string()> outOfTime = [] { return std::string(); };
 };
 
 /// Why an engine has no mirror in this scene; empty: it has one.
