@@ -291,6 +291,8 @@ std::string stabilityText(const StabilityResults& results, bool verbose) {
     text = namesText(runs, Verdict::borderline) + namesText(runs, Verdict::fail);
   }
   const auto notRun = count(Verdict::notMeasured);
+  if (count(Verdict::borderline) > 0)
+    text += "degraded (≈): beyond the limit, within the second, milder one; it fails no command\n";
   return text + fmt::format("{} stable, {} degraded, {} unstable, {} refused{}\n",
                             count(Verdict::pass), count(Verdict::borderline), count(Verdict::fail),
                             count(Verdict::notApplicable),

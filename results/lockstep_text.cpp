@@ -160,7 +160,7 @@ std::string describeCauses(const LockstepRow& row) {
   // Parts of what hardly parts may be many times the whole, and this takes them back.
   if (const auto rest = causes.interaction.back(); rest && std::abs(*rest) >= leastInteraction)
     words += fmt::format("; {} where they act together", percentText(*rest));
-  return "first to act: " + words;
+  return "in the order in which they act: " + words;
 }
 
 std::string describe(const LockstepRow& row, const LockstepRules& rules) {
@@ -193,7 +193,7 @@ std::string describe(const LockstepRow& row, const LockstepRules& rules) {
     words += fmt::format("; borderline: {}", open);
   if (!row.failure.empty()) words += fmt::format("; then it failed: {}", row.failure);
   if (const std::string causes = describeCauses(row); !causes.empty())
-    words += ". Differences from the case's law, " + causes;
+    words += ". Known differences from the case's law, " + causes;
   return words + '.';
 }
 

@@ -43,8 +43,8 @@ std::string describeReading(const LockstepRow& row, const LockstepRules& rules);
 /// Of identical to its precision: "0.51 % of k_n would show". Empty of other verdicts.
 std::string describeResolution(const LockstepRow& row, const LockstepRules& rules);
 
-/// "first to act: spring_update in step 1, 62 % of the divergence after 100 ms; lever_arm in step
-/// 3, 30 %", of differences from the case's law; empty: there is none.
+/// "in the order in which they act: spring_update in step 1, 62 % of the divergence after 100 ms;
+/// lever_arm in step 3, 30 %", of differences from the case's law; empty: there is none.
 std::string describeCauses(const LockstepRow& row);
 
 /// One line on one engine.
