@@ -10,12 +10,14 @@
 #include "cli/outcome.hpp"
 #include "reports/regression/regression.hpp"
 #include "results/schema.hpp"
+#include "studies/core/engine_access.hpp"
 #include "studies/core/study.hpp"
 #include "studies/lockstep/rules.hpp"
 #include "studies/regression/diff.hpp"
 #include "studies/regression/observe.hpp"
 #include "support/bad_input.hpp"
 #include "support/files.hpp"
+#include "support/numbers.hpp"
 
 namespace crossgrain::inline cli {
 namespace {
@@ -52,6 +54,10 @@ int keep(const CommandLine& line, const KeepOptions& own) {
   if (endpoints && cases.front().averaging.endpoints.empty())
     throw BadInput(
         fmt::format("--endpoints: {} has no endpoints to keep", line.inputs.front().string()));
+  if (line.run.dryRun)
+    return printPlanned(fmt::format("would keep a baseline of {} on {} in {}",
+                                    counted(selectEngines(line.run.engines).size(), "engine"),
+                                    cases.front().name, out));
   // A folder that cannot be written is reported before the work is done.
   if (file.has_parent_path()) makeDirectory(file.parent_path());
   std::vector<std::string> refusals;
@@ -86,6 +92,7 @@ Action declareBaseline(CLI::App& app, CommandLine& line) {
   addSelection(app, line);
   addPackings(app, line);
   addQuiet(app, line);
+  addDryRun(app, line);
   const auto own = std::make_shared<KeepOptions>();
   addArgument(app, "--out", own->out, "file to write; it must not exist", "FILE");
   addNumber(app, "--starts", own->starts,
@@ -101,7 +108,7 @@ Action declareDiff(CLI::App& app, CommandLine& line) {
   addEngines(app, line);
   addOverrides(app, line);
   addQuiet(app, line);
-  addFlag(app, "--json", line.json, "print the results as JSON");
+  addJson(app, line);
   return [&line, file] { return diff(line, *file); };
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -83,7 +84,11 @@ int exportSnapshots(const CommandLine& line, const Case& setup, const std::strin
   reader->takeAll();
   const auto written = files::writtenFiles(format, out, reader->count());
   requireNew(written);
-
+  std::vector<std::string> names;
+  for (const std::filesystem::path& file : written) names.push_back(file.string());
+  if (line.run.dryRun)
+    return printPlanned(
+        fmt::format("would write {} snapshots to {}", reader->count(), fmt::join(names, ", ")));
   const auto writer = writerOf(format, out, reader->scene(), setup);
   Progress progress(line.run.quiet);
   progress.begin("writing snapshots", {1.0});
@@ -98,8 +103,15 @@ int exportSnapshots(const CommandLine& line, const Case& setup, const std::strin
   }
   writer->close();
   progress.finish(0, out);
-  std::vector<std::string> names;
-  for (const std::filesystem::path& file : written) names.push_back(file.string());
+  if (line.json) {
+    printJson({{"files", names},
+               {"engine", reader->engine()},
+               {"snapshots", reader->count()},
+               {"from_s", first.value_or(last)},
+               {"to_s", last},
+               {"not_written", writer->notWritten()}});
+    return exitPassed;
+  }
   constexpr std::size_t mostNames = 3;
   if (names.size() > mostNames) names = {names.front() + " …"};
   fmt::print("{}: {} snapshots of {}, t = {:g} to {:g} s\n", fmt::join(names, ", "),
@@ -112,7 +124,8 @@ int exportSnapshots(const CommandLine& line, const std::string& format,
                     const std::string& snapshots, const std::string& out) {
   requireFormat(format);
   const Case setup = flowCase(line);
-  if (const auto folder = std::filesystem::path(out).parent_path(); !folder.empty())
+  if (const auto folder = std::filesystem::path(out).parent_path();
+      !folder.empty() && !line.run.dryRun)
     makeDirectory(folder);
   return inDimensionOf(
       setup, [&]<int D>() { return exportSnapshots<D>(line, setup, format, snapshots, out); });
@@ -127,6 +140,8 @@ Action declareExport(CLI::App& app, CommandLine& line) {
   addArgument(app, "--out", *out, "name of the files, without an ending", "NAME");
   addOverrides(app, line);
   addQuiet(app, line);
+  addJson(app, line);
+  addDryRun(app, line);
   return
       [&line, format, snapshots, out] { return exportSnapshots(line, *format, *snapshots, *out); };
 }

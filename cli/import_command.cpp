@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
 #include "studies/flow/import.hpp"
 #include "support/terminal.hpp"
 
@@ -12,6 +14,16 @@ namespace {
 
 int importFiles(const CommandLine& line, const ImportOptions& options) {
   const Imported done = importSnapshots(line, options);
+  if (line.json) {
+    printJson({{"file", options.out},
+               {"engine", done.name},
+               {"snapshots", done.snapshots},
+               {"disks", done.disks},
+               {"from_s", done.from},
+               {"to_s", done.to},
+               {"notes", done.remarks}});
+    return exitPassed;
+  }
   fmt::print("{} snapshots of {} disks by {}, t = {:.6g} to {:.6g} s: {}\n", done.snapshots,
              done.disks, done.name, done.from, done.to, options.out);
   for (const std::string& remark : done.remarks)
@@ -34,6 +46,7 @@ Action declareImport(CLI::App& app, CommandLine& line) {
           "NAME");
   addOverrides(app, line);
   addQuiet(app, line);
+  addJson(app, line);
   return [&line, options] { return importFiles(line, *options); };
 }
 

@@ -181,6 +181,14 @@ void addQuiet(CLI::App& app, CommandLine& line) {
   app.add_flag("--quiet", line.run.quiet, "print no progress");
 }
 
+void addJson(CLI::App& app, CommandLine& line) {
+  app.add_flag("--json", line.json, "print the results as JSON");
+}
+
+void addDryRun(CLI::App& app, CommandLine& line) {
+  app.add_flag("--dry-run", line.run.dryRun, "print what would be done; compute and write nothing");
+}
+
 void addVerbose(CLI::App& app, CommandLine& line) {
   app.add_flag("-v,--verbose", line.verbose, "print all findings, not a summary");
 }

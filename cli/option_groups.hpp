@@ -61,6 +61,12 @@ void addSelection(CLI::App& app, CommandLine& line);
 
 void addQuiet(CLI::App& app, CommandLine& line);
 
+/// --json, of a command that writes no results.json.
+void addJson(CLI::App& app, CommandLine& line);
+
+/// --dry-run, of a command that writes no folder of results.
+void addDryRun(CLI::App& app, CommandLine& line);
+
 void addVerbose(CLI::App& app, CommandLine& line);
 
 /// Of all commands that run engines on packings: --seed, --quick.

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <nlohmann/json.hpp>
 
 #include "reports/common/overview.hpp"
 #include "support/busy_time.hpp"
@@ -63,6 +64,15 @@ void printResults(const CommandLine& line, const std::string& text,
   printOverview(overview);
   fmt::print("report: {}\n", (line.run.out / "report.html").string());
   if (timeSpent && !line.run.quiet) printTimeSpent();
+}
+
+void printJson(const nlohmann::json& results) {
+  fmt::print("{}\n", results.dump());
+}
+
+int printPlanned(const std::string& what) {
+  printText(what + "; nothing was done\n");
+  return exitPassed;
 }
 
 int printOutcome(const CommandLine& line, const Outcome& outcome) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "cli/command.hpp"
@@ -23,6 +24,12 @@ void printOverview(const reports::Overview& overview);
 ///                   averages
 void printResults(const CommandLine& line, const std::string& text,
                   const reports::Overview& overview, bool timeSpent);
+
+/// Results of a command that writes no results.json.
+void printJson(const nlohmann::json& results);
+
+/// Of a --dry-run of one step: what would be done. @returns the status
+int printPlanned(const std::string& what);
 
 /// Failures on standard error; "nothing was judged: …" and "status 1: …", which says what makes it
 /// so, on standard output, or on standard error where that holds a path alone. @returns the status

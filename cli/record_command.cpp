@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -45,14 +46,26 @@ int record(const CommandLine& line, const std::string& out, const std::optional<
       loadCase(line.inputs.front(), line.overrides, {}, Starts::made, line.only);
   if (line.only) cases = selectedCases(cases, *line.only);
   const Case& setup = cases.front();
+  std::FILE* const told = line.json ? stderr : stdout;
   if (cases.size() > 1)
-    fmt::print("{}: variant {} is recorded, one of {}; -k names another\n", setup.file.string(),
-               setup.variant, cases.size());
-  reportKeysWithoutUse(setup, "record", stdout);
+    fmt::print(told, "{}: variant {} is recorded, one of {}; -k names another\n",
+               setup.file.string(), setup.variant, cases.size());
+  reportKeysWithoutUse(setup, "record", told);
+  if (line.run.dryRun)
+    return printPlanned(fmt::format("would record {} on {} into {}", engine.name, setup.name, out));
   if (file.has_parent_path()) makeDirectory(file.parent_path());
   const Recorded recorded = recordRun(engine, setup, file, options);
-  fmt::print("{}: {} requests and answers of {} {}, to t = {:g} s of {}\n", out, recorded.exchanges,
-             engine.name, recorded.version, recorded.time, setup.name);
+  if (line.json)
+    printJson({{"file", out},
+               {"engine", engine.name},
+               {"version", recorded.version},
+               {"exchanges", recorded.exchanges},
+               {"time_s", recorded.time},
+               {"case", setup.name},
+               {"failure", recorded.failure}});
+  else
+    fmt::print("{}: {} requests and answers of {} {}, to t = {:g} s of {}\n", out,
+               recorded.exchanges, engine.name, recorded.version, recorded.time, setup.name);
   if (recorded.failure.empty()) return exitPassed;
   printFailure(recorded.failure);
   return exitEngineFailed;
@@ -73,6 +86,8 @@ Action declareRecord(CLI::App& app, CommandLine& line) {
   addOverrides(app, line);
   addSelection(app, line);
   addQuiet(app, line);
+  addJson(app, line);
+  addDryRun(app, line);
   const auto out = std::make_shared<std::string>();
   addArgument(app, "--out", *out, "file for it, which must not be there", "FILE");
   const auto time = std::make_shared<std::optional<double>>();
@@ -92,7 +107,7 @@ Action declareReplay(CLI::App& app, CommandLine& line) {
   addNumber(app, "--tolerance", *tolerance,
             "numbers are alike that differ by no more than this part of the largest of their array "
             "(default: 0)");
-  addFlag(app, "--json", line.json, "print the results as JSON");
+  addJson(app, line);
   return [&line, file, tolerance] { return replay(line, *file, *tolerance); };
 }
 

@@ -156,6 +156,9 @@ int identifyEngine(const CommandLine& line) {
   if (line.run.engines.size() != 1 || line.run.engines.front() == "all")
     throw BadInput("identify takes one engine: --engines NAME");
   const Case setup = onlyFlow(line, "identify");
+  if (line.run.dryRun)
+    return printPlanned(fmt::format("would identify the law of {} on {}",
+                                    selectEngines(line.run.engines).front().name, setup.name));
   const Identification found = runIdentify(setup, line.run);
   printNotes();
   if (line.json)
@@ -170,7 +173,8 @@ Action declareIdentify(CLI::App& app, CommandLine& line) {
   addEngines(app, line);
   addOverrides(app, line);
   addQuiet(app, line);
-  addFlag(app, "--json", line.json, "print the results as JSON");
+  addJson(app, line);
+  addDryRun(app, line);
   return [&line] { return identifyEngine(line); };
 }
 

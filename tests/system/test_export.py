@@ -50,6 +50,10 @@ class OneRun(SystemTest):
 
 class Export(OneRun):
     def test_mercurydpm_has_the_same_disks_and_forces(self):
+        self.assertIn("would write 3 snapshots to ", self.export("mercurydpm", "--dry-run").stdout)
+        self.assertFalse((self.folder / "files").exists())
+        told = json.loads(self.export("mercurydpm", "--json", out=self.folder / "other/x").stdout)
+        self.assertEqual(("grain", 3), (told["engine"], told["snapshots"]))
         done = self.export("mercurydpm")
         self.assert_status(done, HELD)
         self.assertIn("x.data", done.stdout)
