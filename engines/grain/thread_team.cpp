@@ -37,14 +37,18 @@ ThreadTeam::~ThreadTeam() {
   round_.notify_all();
 }
 
-/// Keeps to what took less when last tried, and tries the other from time to time. Means, as what
-/// others take of a processor is seldom and long.
+/// Keeps to what took less when last tried, and tries the other from time to time, for no longer
+/// than the kept one took: threads may be many times slower where others have the processors.
+/// Means, as what others take of a processor is seldom and long.
 void ThreadTeam::took(double seconds) {
   sum_ += seconds;
-  if (++steps_ % trial != 0) return;
+  const bool trying = trials_ % retried == 0;
+  const double kept = alone_ ? togetherTook_ : aloneTook_;  // at first it is 0
+  if (++steps_ < trial && !(trying && kept > 0.0 && sum_ > kept)) return;
+  steps_ = 0;
   (alone_ ? aloneTook_ : togetherTook_) = std::exchange(sum_, 0.0);
-  alone_ = aloneTook_ < togetherTook_;  // at first it is 0
-  if (steps_ % (trial * retried) == 0) alone_ = !alone_;
+  alone_ = aloneTook_ < togetherTook_;
+  if (++trials_ % retried == 0) alone_ = !alone_;
 }
 
 void ThreadTeam::runTask(const Task& task) {

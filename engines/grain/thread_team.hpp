@@ -19,7 +19,8 @@ inline std::size_t partCount(int threads, std::size_t bodies) {
 /// Threads that do one thing together, part by part, again and again. They spin for a while between
 /// two calls, as steps follow each other within microseconds, then give way to others, then sleep.
 /// Where steps are short or processors are taken, one thread does all parts in less time: the team
-/// tries both every few thousand steps. The parts are the same, and so are the results.
+/// tries both every few thousand steps, the slower for no longer than the other takes. The parts
+/// are the same, and so are the results.
 class ThreadTeam {
  public:
   /// @param now  the time [s], from anywhere
@@ -66,7 +67,7 @@ class ThreadTeam {
   std::atomic<std::uint32_t> round_{0}, pending_{0};
   std::atomic<bool> stop_{false};
   bool alone_ = false;  ///< the calling thread does all parts
-  std::size_t steps_ = 0;
+  std::size_t steps_ = 0, trials_ = 0;
   double sum_ = 0.0, aloneTook_ = 0.0, togetherTook_ = 0.0;  ///< of a trial [s]
   std::vector<std::exception_ptr> thrown_;
   std::vector<std::jthread> threads_;

@@ -66,6 +66,23 @@ TEST(ThreadTeam, SharesStepsOutWhereThatTakesLessTime) {
   EXPECT_EQ(threadsChosen(2.5), 1u);
 }
 
+TEST(ThreadTeam, EndsATryThatHasTakenLongerThanWhatItKeepsTo) {
+  for (const double shared : {2.5, 200.0}) {
+    ThreadTeam team(2, [] { return ticks; });
+    int together = 0;
+    for (int step = 0; step < 64 * 200; ++step)
+      team.step([&] {
+        std::array<std::thread::id, 2> by;
+        team.run([&](std::size_t part) { by[part] = std::this_thread::get_id(); });
+        const bool alone = by[0] == by[1];
+        if (step >= 128) together += alone ? 0 : 1;
+        ticks += alone ? 2.0 : shared;
+      });
+    // 64 steps by one take 128 s: 52 by two are longer, or one in which the processors were taken.
+    EXPECT_EQ(together, (shared < 100.0 ? 52 : 1) * 6);
+  }
+}
+
 class Threads : public testing::TestWithParam<Precision> {
  protected:
   grain::Setup scene(int side, int threads) const {
