@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace crossgrain::inline results {
 
@@ -74,6 +76,31 @@ StepFigures stepFigures(const std::vector<StepTime>& times, const StepTime& of) 
   if (of.bodies % workers == 0)
     figures.weak = quotient(stepAlone(times, of.engine, of.bodies / workers), of.step);
   return figures;
+}
+
+std::optional<StepForecast> stepForecast(const std::vector<StepTime>& times, const StepTime& of) {
+  const StepTime *small = nullptr, *large = nullptr;
+  for (const StepTime& one : times) {
+    if (one.engine != of.engine || one.workers != of.workers || !one.ran()) continue;
+    if (one.bodies >= of.bodies || (large && one.bodies == large->bodies)) continue;
+    if (!large || one.bodies > large->bodies)
+      small = std::exchange(large, &one);
+    else if (!small || one.bodies > small->bodies)
+      small = &one;
+  }
+  if (!small) return std::nullopt;
+  const auto bodies = static_cast<double>(of.bodies), fewer = static_cast<double>(small->bodies),
+             more = static_cast<double>(large->bodies);
+  const double alike = large->step * bodies / more;  // per body as before
+  const double power = std::log(large->step / small->step) / std::log(more / fewer);
+  const double further = large->step * std::pow(bodies / more, power);
+  StepForecast forecast{small->bodies, large->bodies, std::min(alike, further),
+                        std::max(alike, further), std::nullopt};
+  if (small->memory && large->memory) {
+    const double perBody = (*large->memory - *small->memory) / (more - fewer);
+    forecast.memory = *large->memory + std::max(perBody, 0.0) * (bodies - more);
+  }
+  return forecast;
 }
 
 std::string describeWorkers(const StepTime& of) {

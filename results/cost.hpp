@@ -83,6 +83,19 @@ struct StepFigures {
 /// @param of  one of `times`
 StepFigures stepFigures(const std::vector<StepTime>& times, const StepTime& of);
 
+/// What a step of a size that did not run would take, by the two largest that did.
+struct StepForecast {
+  std::size_t smaller = 0, larger = 0;  ///< that it is from [bodies]
+  /// Ends of a step's time [s]: time per body as of the larger, and changing further as from the
+  /// smaller to the larger, by the same power of the number of bodies.
+  double least = 0.0, most = 0.0;
+  std::optional<double> memory;  ///< on the straight line through both [bytes]
+};
+
+/// @param of  one of `times`
+/// @returns absent where fewer than two smaller sizes of the engine ran with as many workers
+std::optional<StepForecast> stepForecast(const std::vector<StepTime>& times, const StepTime& of);
+
 /// "1 thread", "2 threads"; "one process" of an engine that has no workers.
 std::string describeWorkers(const StepTime& of);
 

@@ -98,6 +98,8 @@ class SizeTimings {
         inDimensionOf(setup, [&]<int D>() { roundOf<D>(from, to, round); });
       }
     for (std::size_t k = 0; k < times_.size(); ++k) summarise(times_[k], rounds_[k]);
+    for (StepTime& time : times_)
+      if (time.status == Status::notRun) time.reason += forecastText(time);
     return times_;
   }
 
@@ -194,6 +196,17 @@ class SizeTimings {
   void end(std::size_t k, Status status, const std::string& reason) {
     times_[k].status = status;
     times_[k].reason = BadInput(reason).what();  // in one line
+  }
+
+  /// What it would take, by smaller sizes.
+  std::string forecastText(const StepTime& time) const {
+    const auto forecast = stepForecast(times_, time);
+    if (!forecast) return "; two smaller sizes beside it (--disks) would tell what it takes";
+    std::string text = fmt::format("; by {} and {} bodies {} would take {:.2g} to {:.2g} s a step",
+                                   forecast->smaller, forecast->larger, describeWorkers(time),
+                                   forecast->least, forecast->most);
+    if (forecast->memory) text += fmt::format(" and {:.2g} GB of memory", 1e-9 * *forecast->memory);
+    return text;
   }
 
   /// A round that there is neither time nor memory for; empty: there is.

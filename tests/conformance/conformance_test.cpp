@@ -184,7 +184,10 @@ int writeTests(const std::string& program, const std::string& file) {
         << fmt::format("set_tests_properties([[conformance.{}]] PROPERTIES TIMEOUT 1800 COST 20)\n",
                        name);
   };
-  for (const EngineEntry& entry : engineRegistry()) write(entry.name, "*/" + testName(entry.name));
+  // The in-house engine once more, in as many smaller steps: the target planted_checks runs it.
+  constexpr std::string_view byNight = "grain-stiff";
+  for (const EngineEntry& entry : engineRegistry())
+    if (entry.name != byNight) write(entry.name, "*/" + testName(entry.name));
   write("expected-skips", "ExpectedSkips.*");
   write("planted-faults", "OfEachCheck*:FaultMatrix*:RightEngine.*:Unexplained*:OneCause*");
   out.close();

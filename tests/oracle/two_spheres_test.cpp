@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -227,11 +228,15 @@ TEST(TwoSpheres, SpinsAlongOneAxis_AreThePlanesProblem) {
   // law that stiffens begins and ends with a stiffness of 0, where distances that are rounded hide
   // 1e-10 of the contact.
   int compared = 0, all = 0;
-  for (const auto& [name, soft] : allLaws())
+  // Laws that follow each other are alike but for one option: each has two of the five slips.
+  constexpr std::array slips = {0.0, 0.3, 0.9, -1.7, 4.0};
+  std::size_t turn = 0;
+  for (const auto& [name, soft] : allLaws()) {
+    ++turn;
     for (const CollidingPair& pair : {spheres(), sphereOnWall()})
       for (const LeverArm arm : {pair.plane ? LeverArm::overlapMiddle : LeverArm::radius})
         for (const Approach approach : {Approach::spin, Approach::oblique})
-          for (const double psi : {0.0, 0.3, 0.9, -1.7, 4.0}) {
+          for (const double psi : {slips[turn % 5], slips[(turn + 2) % 5]}) {
             SCOPED_TRACE(testing::Message()
                          << name << ", wall " << pair.plane << " arm " << int(arm) << " approach "
                          << int(approach) << " psi " << psi);
@@ -273,6 +278,7 @@ TEST(TwoSpheres, SpinsAlongOneAxis_AreThePlanesProblem) {
             EXPECT_EQ(chosen.psi, plane->psi);
             EXPECT_EQ(chosen.outOfPlane->psi, 0.0);
           }
+  }
   EXPECT_GE(compared, all * 9 / 10);
 }
 
@@ -643,8 +649,9 @@ TEST(TwoSpheres, ImpactOutOfAPlane_IsTheLimitOfItsLawInSmallSteps) {
   // scatter by events within a step: at t_c/8000 and t_c/16000 what extrapolation leaves of them is
   // below 3e-4 of v_n, and the wrong share of stretching steps or none is 1e-2 and more.
   int compared = 0, all = 0;
+  constexpr std::array slips = {0.5, 1.5, 3.0};  // two of them for each law
   for (const auto& [name, soft] : allLaws())
-    for (const double psi : {0.5, 1.5, 3.0}) {
+    for (const double psi : {slips[all % 3], slips[(all + 1) % 3]}) {
       ContactLaw law = soft;
       law.dimension = 3;
       CollisionStart start{psi, 1.0, Approach::oblique};

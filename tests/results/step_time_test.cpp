@@ -58,6 +58,27 @@ TEST(StepFigures, FailedTiming_HasNoneAndLendsNone) {
   EXPECT_FALSE(stepFigures(all, all[2]).ratio);
 }
 
+TEST(StepForecast, SizeThatDidNotRun_IsForeseenByTheTwoLargestBelow) {
+  // From 1000 to 4000 bodies a body takes twice as long, T ∝ N^(3/2): at 16 000 the same per body,
+  // 4 · 96 µs, or twice that. Memory: 1 MB and 500 bytes a body.
+  std::vector<StepTime> all = {
+      timed("grain", 500, 1, 1e-6, {1e-6}),    timed("grain", 4000, 1, 96e-6, {96e-6}),
+      timed("grain", 1000, 1, 12e-6, {12e-6}), timed("grain", 16000, 1, 0.0, {}),
+      timed("grain", 64000, 1, 1.0, {1.0}),    timed("other", 8000, 1, 1.0, {1.0})};
+  all[1].memory = 3e6;
+  all[2].memory = 1.5e6;
+  all[3].status = Status::notRun;
+  const auto forecast = stepForecast(all, all[3]);
+  ASSERT_TRUE(forecast);
+  EXPECT_EQ(forecast->smaller, 1000u);
+  EXPECT_EQ(forecast->larger, 4000u);
+  EXPECT_DOUBLE_EQ(forecast->least, 384e-6);
+  EXPECT_DOUBLE_EQ(forecast->most, 768e-6);
+  EXPECT_DOUBLE_EQ(*forecast->memory, 9e6);
+  EXPECT_FALSE(stepForecast(all, all[1]).value().memory);  // none of 500 bodies
+  EXPECT_FALSE(stepForecast(all, all[2]));
+}
+
 TEST(StepFigures, Workers_AreNamedByTheirKind) {
   StepTime time;
   EXPECT_EQ(describeWorkers(time), "one process");
