@@ -129,9 +129,7 @@ Names siteFolders(const std::vector<SiteEntry>& entries) {
 /// The most severe verdict of a report's matrix, and whose it is in which questions.
 reports::Cell verdictCell(const Overview& overview) {
   auto worst = Verdict::notMeasured;
-  for (const OverviewRow& row : overview.rows)
-    for (const OverviewCell& cell : row.cells)
-      worst = moreSevere(worst, cell.verdict.value_or(Verdict::notMeasured));
+  for (const OverviewRow& row : overview.rows) worst = moreSevere(worst, mostSevere(row));
   SaidOf said;
   for (const OverviewRow& row : overview.rows) {
     Names questions;

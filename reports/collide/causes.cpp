@@ -5,20 +5,15 @@
 #include <cmath>
 #include <set>
 
-#include "adapters/registry.hpp"
 #include "reports/collide/report.hpp"
 #include "reports/common/causes.hpp"
+#include "reports/common/engines.hpp"
 
 namespace crossgrain::reports {
 
 namespace {
 
 constexpr std::size_t mostPanels = 12;
-
-/// Engine that ran the mixtures, whose sweep under the scene's law others are compared with.
-const std::string& inHouse() {
-  return engineRegistry().front().name;
-}
 
 const QuantityCauses* causesIn(const CollisionCurve& curve, QuantityId quantity) {
   return curve.causes && curve.causes->of[quantity] ? &*curve.causes->of[quantity] : nullptr;
@@ -107,7 +102,7 @@ std::optional<WorstDifference> worstDifference(const CollisionVariant* variant,
 }
 
 std::string largestCause(const WorstDifference& worst) {
-  return accountOf(worst)->largest();
+  return causeWords(accountOf(worst)->largest());
 }
 
 std::string differenceSentence(const WorstDifference& worst, const std::string& place,

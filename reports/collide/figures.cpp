@@ -176,27 +176,21 @@ Panel errorPanel(const CollisionVariant& variant, const Styles& styles) {
   return panel;
 }
 
-/// Keeps the place of a panel that there is nothing to draw in.
-Panel emptyPanel(const CollisionVariant& variant, const char* why) {
-  Panel panel = panelOver(variant, why);
-  panel.yRange = Range{0.0, 1.0};
-  panel.curves.push_back({"", oracleStyle, Draw::lines, {{0.0, 0.0, {}}}, 1.0});
-  return panel;
-}
-
 Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::string& name) {
   Figure figure;
   figure.name = name;
   figure.title = group.variants.front()->convex
                      ? "Velocities of the contact point after a collision of convex bodies"
                      : "Tangential velocity after a collision against before, and its error";
+  Names withoutError;
   for (const CollisionVariant* variant : group.variants) {
     Panel sweep = sweepPanel(*variant, styles);
     if (!hasPoints(sweep)) continue;
     figure.panels.push_back(std::move(sweep));
-    Panel error = errorPanel(*variant, styles);
-    if (!hasPoints(error)) error = emptyPanel(*variant, "no error: no oracle, or no run");
-    figure.panels.push_back(std::move(error));
+    if (Panel error = errorPanel(*variant, styles); hasPoints(error))
+      figure.panels.push_back(std::move(error));
+    else
+      withoutError.push_back(variant->variant);
     if (variant->convex) figure.panels.push_back(sweepPanel(*variant, styles, QuantityId::en));
   }
   const bool convex = group.variants.front()->convex.has_value();
@@ -204,6 +198,9 @@ Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::str
       "Ψ_f = v_t/v_n of the contact point after {}, and its distance from the "
       "oracle (log axis){}, every engine at the largest of its time steps.",
       convex ? "a collision" : "against Ψ_i before", convex ? ", and e_n there" : "");
+  if (!withoutError.empty())
+    figure.caption +=
+        fmt::format(" No distance in {}: no oracle, or no run.", listed(withoutError));
   if (draws(figure, oracleStyle)) figure.caption += " Grey: the oracle.";
   if (convex)
     figure.caption +=

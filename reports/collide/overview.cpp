@@ -99,7 +99,7 @@ OverviewCell errorCell(const Errors& errors, bool besidePeer) {
           shown.words, shown.anchor};
 }
 
-/// "by spring_update: " where most of a curve's error is a difference from the in-house engine at
+/// "by spring update: " where most of a curve's error is a difference from the in-house engine at
 /// the same step: else the step makes it. Causes are known of the largest step.
 std::string causeBefore(const CollisionVariant& variant, const CollisionCurve& curve,
                         QuantityId quantity) {

@@ -94,10 +94,10 @@ std::vector<WorstDifference> differencesIn(const std::vector<const CollisionVari
 /// Of each engine the largest in limits, the largest first.
 std::vector<WorstDifference> largestOfEngines(std::vector<WorstDifference> all);
 
-/// The name of the largest cause, "spring_update".
+/// The largest cause in words, "spring update".
 std::string largestCause(const WorstDifference& worst);
 
-/// "tangential rebound Ψ_f of mine is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139,
+/// "tangential rebound Ψ_f of mine is 0.14 lower than grain's at Ψ_i = 0.35: spring update 0.139,
 /// …"
 /// @param place    of the sweep; empty: not said
 /// @param isFirst  of some: it says what the in-house engine is there

@@ -26,17 +26,21 @@ struct CauseAccount {
   double interaction = 0.0, remainder = 0.0;
   std::string remainderName = {};  ///< empty, with no parts: no cause is shown
 
-  /// Name of the part that makes most of the difference, the remainder's where that makes more;
-  /// empty: none does.
+  /// Name, as in case files, of the part that makes most of the difference, the remainder's where
+  /// that makes more; empty: none does.
   std::string largest() const;
 };
 
-/// "spring_update 0.139 (not declared), lever_arm 0.001, implementation < 0.001": the largest
+/// A difference's name as people read it: "dashpot+spring_reset" → "dashpot with spring reset",
+/// "mu" → "µ".
+std::string causeWords(const std::string& name);
+
+/// "spring update 0.139 (not declared), lever arm 0.001, implementation < 0.001": the largest
 /// first, what works against the whole with a minus sign, all with the digits of the whole; what is
 /// below a hundredth of it together as "others".
 std::string accountWords(const CauseAccount& account);
 
-/// "Ψ_f of mine is 0.14 lower than grain's at Ψ_i = 0.35: spring_update 0.139, lever_arm 0.001,
+/// "Ψ_f of mine is 0.14 lower than grain's at Ψ_i = 0.35: spring update 0.139, lever arm 0.001,
 /// implementation < 0.001 (1 limit = 0.02)"
 /// @param what   the quantity, "Ψ_f"
 /// @param where  "at Ψ_i = 0.35"; empty: it has no place
@@ -47,10 +51,10 @@ std::string causeSentence(const std::string& what, const std::string& engine,
                           const CauseAccount& account, const std::string& unit,
                           const std::optional<double>& limit, const char* limitIs);
 
-/// "spring_update after → before (not declared)"
+/// "spring update after → before (not declared)"
 std::string differenceWords(const CauseName& difference);
 
-/// "mine differs from the law that it declares as if spring_update were before, not after. It
+/// "mine differs from the law that it declares as if spring update were before, not after. It
 /// reports, beside options of the law: rounding." Empty: it does not.
 std::string undeclaredSentence(const std::string& engine, const Causes& causes,
                                const std::optional<EffectiveParameters>& effective);

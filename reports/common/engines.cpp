@@ -67,6 +67,10 @@ std::string ownerOf(const EngineRow& engine) {
 
 }  // namespace
 
+const std::string& inHouse() {
+  return engineRegistry().front().name;
+}
+
 LineStyle engineStyle(std::size_t index) {
   return {enginesColours[index % enginesColours.size()], filledMarks[index % filledMarks.size()],
           false};

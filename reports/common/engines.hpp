@@ -1,11 +1,15 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "reports/common/figure.hpp"
 #include "results/head.hpp"
 
 namespace crossgrain::reports {
+
+/// Name of the in-house engine, of which mirrors are made.
+const std::string& inHouse();
 
 /// Colours by Okabe and Ito (2008), distinct with any colour vision; marks differ too. Of what is
 /// no engine, by its place.

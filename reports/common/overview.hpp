@@ -54,6 +54,14 @@ struct OverviewRow {
   void fields(auto& io) { FIELDS(io, name, cells); }
 };
 
+/// The most severe verdict of its cells.
+inline Verdict mostSevere(const OverviewRow& row) {
+  auto worst = Verdict::notMeasured;
+  for (const OverviewCell& cell : row.cells)
+    worst = moreSevere(worst, cell.verdict.value_or(Verdict::notMeasured));
+  return worst;
+}
+
 /// Words for a verdict where it means something else than everywhere.
 struct VerdictWords {
   std::optional<Verdict> verdict;

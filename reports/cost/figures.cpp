@@ -31,8 +31,13 @@ constexpr double offScale = 10.0;
 constexpr int crossMark = 2, openTriangle = 10;
 constexpr const char* frontName = "Pareto front";
 
-LineStyle openMarks(LineStyle style) {
+/// @param place  among styles of one engine: each has another mark
+LineStyle openMarks(LineStyle style, std::size_t place = 0) {
+  constexpr std::array open = {4, 6, 8, 12};  // not openTriangle
   if (style.pointType % 2 == 1) style.pointType -= 1;
+  const auto* const own = std::ranges::find(open, style.pointType);
+  if (place > 0 && own != open.end())
+    style.pointType = open[static_cast<std::size_t>(own - open.begin() + place) % open.size()];
   return style;
 }
 
@@ -107,10 +112,11 @@ void addEngine(Panel& panel, const Points& points, const std::string& engine,
       (point.mayBeChance() ? chance : marks).points.push_back(*mark);
       continue;
     }
-    const std::string name = scheme->empty() ? engine : engine + ", " + *scheme;
+    const std::string name = scheme->empty() ? engine : engine + ", " + spaced(*scheme);
     auto curve = std::ranges::find(schemes, name, &Curve::name);
     if (curve == schemes.end()) {
-      curve = schemes.insert(curve, {name, openMarks(style), Draw::linesAndPoints, {}, 1.0});
+      curve = schemes.insert(
+          curve, {name, openMarks(style, schemes.size() - 1), Draw::linesAndPoints, {}, 1.0});
       curve->style.dashed = true;
     }
     curve->points.push_back(*mark);

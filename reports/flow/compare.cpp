@@ -287,7 +287,8 @@ Report compareReport(const CompareResults& results) {
   addSeries(report, results, engines);
   addDetails(report, effectiveOf(results, engines));
   if (!results.packings.empty()) addPackings(report, results.packings);
-  report.foldAllBut({"agreement", "pictures", "profiles"});
+  const bool drawn = findBy(report.figures, "overview", &Figure::name) != nullptr;
+  report.foldAllBut({"agreement", "pictures", drawn ? "profiles" : ""});
   report.tables = averageTables(results);
   report.tables.emplace_back("endpoints.csv", endpointsCsv(results));
   report.tables.emplace_back("agreement.csv", agreementCsv(results));

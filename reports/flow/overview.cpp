@@ -8,6 +8,7 @@
 #include <iterator>
 #include <tuple>
 
+#include "reports/common/engines.hpp"
 #include "reports/flow/endpoint_text.hpp"
 #include "reports/lockstep/report.hpp"
 
@@ -273,6 +274,8 @@ OverviewCell lawOf(const CompareResults& results, const EngineRuns& engine) {
   const LockstepFindings& findings = results.lockstep ? *results.lockstep : none;
   OverviewCell cell = lockstepCell(findBy(findings.rows, engine.name, &LockstepRow::engine),
                                    findings.rules, !engine.mirrors.empty());
+  if (engine.name == inHouse() && cell.verdict == Verdict::notMeasured)
+    cell.words = "the in-house engine, its own mirror";
   // The worst of all that was seen: a fault that begins after lockstep's windows shows in the
   // engine's own run.
   const SurrogateEngine* const own = spotCheckedEngine(results.endpoints.surrogates, engine.name);

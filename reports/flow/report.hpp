@@ -106,7 +106,7 @@ Names compareConclusion(const CompareResults& results);
 
 // Causes of differences (results/causes.hpp). A part whose interval holds 0 is not named.
 
-/// "Pressure of mine is 12 % higher than grain's on 8 packings: spring_update 9.1, rest 2.9 (1
+/// "Pressure of mine is 12 % higher than grain's on 8 packings: spring update 9.1, rest 2.9 (1
 /// margin = 25 %).": of the largest differences from the reference, at most so many; then what was
 /// not measured.
 Names causeSentences(const CompareResults& results, std::size_t most);

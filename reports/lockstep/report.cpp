@@ -334,10 +334,10 @@ Overview lockstepOverview(const LockstepResults& results) {
 }  // namespace
 
 std::string leadOf(const LockstepFindings& findings) {
-  Names same, differ, ordered, open, undecided;
+  Names same, differ, ordered, open, undecided, own;
   for (const LockstepRow& row : findings.rows) {
     if (row.verdict == Equivalence::notMeasured)
-      open.push_back(row.engine);
+      (row.engine == inHouse() ? own : open).push_back(row.engine);
     else if (row.verdict == Equivalence::undecided)
       undecided.push_back(row.engine);
     else if (row.verdict == Equivalence::differs && !openInLaw(row, findings.rules).empty())
@@ -352,12 +352,13 @@ std::string leadOf(const LockstepFindings& findings) {
     if (!names.empty())
       parts.push_back(fmt::format("{} {}", listed(names), names.size() == 1 ? one : many));
   };
-  add(same, "is the law that it declares", "are the laws that they declare");
-  add(differ, "is another law than it declares", "are other laws than they declare");
+  add(same, "follows the law that it declares", "follow the laws that they declare");
+  add(differ, "follows another law than it declares", "follow other laws than they declare");
   add(ordered, "differs from its mirror where disks touch several at once",
       "differ from their mirrors where disks touch several at once");
   add(undecided, "is undecided", "are undecided");
   add(open, "was not measured", "were not measured");
+  add(own, "is the in-house engine, its own mirror", "");
   return fmt::format("{}.", fmt::join(parts, "; "));
 }
 

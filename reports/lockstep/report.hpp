@@ -20,7 +20,7 @@ List lockstepReading(const LockstepFindings& findings);
 /// @param row  null: it was not compared with a mirror
 OverviewCell lockstepCell(const LockstepRow* row, const LockstepRules& rules, bool isMirror);
 
-/// "one and another are the laws that they declare; a third was not measured."
+/// "one and another follow the laws that they declare; a third was not measured."
 std::string leadOf(const LockstepFindings& findings);
 
 }  // namespace crossgrain::reports

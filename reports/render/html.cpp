@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <set>
 
 #include "reports/common/engines.hpp"
@@ -194,6 +195,20 @@ std::size_t mostLines(const std::vector<OverviewRow>& rows) {
     if (height <= room) return most;
   }
   return 1;
+}
+
+/// Rows of a list too long for a small screen that wait there until they are asked for: all but the
+/// gravest.
+std::set<const OverviewRow*> laterRows(const Overview& overview) {
+  constexpr std::size_t mostAnswers = 8;
+  std::vector<const OverviewRow*> rows;
+  for (const OverviewRow& row : overview.rows) rows.push_back(&row);
+  const std::size_t answers = overview.columns.size();
+  if (rows.size() * answers <= mostAnswers) return {};
+  std::ranges::stable_sort(rows, std::greater(),
+                           [](const OverviewRow* row) { return mostSevere(*row); });
+  const std::size_t inSight = std::max<std::size_t>(mostAnswers / answers, 1);
+  return {rows.begin() + static_cast<std::ptrdiff_t>(std::min(inSight, rows.size())), rows.end()};
 }
 
 // --- blocks
@@ -481,13 +496,19 @@ std::string htmlMatrix(const Overview& overview, const std::vector<EngineRow>& e
     text += fmt::format("<th title=\"{}\">{}</th>", escaped(column.asks),
                         linked(addressOf(column.anchor), mathHtml(column.name)));
   text += "</tr></thead>\n<tbody>\n";
+  const std::set<const OverviewRow*> later = laterRows(overview);
   for (const OverviewRow& row : overview.rows) {
-    text += "<tr><th>" + (row.isEngine ? names(row.name) : mathHtml(row.name)) + "</th>";
+    text += later.contains(&row) ? "<tr class=\"more\"><th>" : "<tr><th>";
+    text += (row.isEngine ? names(row.name) : mathHtml(row.name)) + "</th>";
     for (std::size_t k = 0; k < row.cells.size(); ++k)
       text += matrixCell(overview, row.cells[k], overview.columns[k].name);
     text += "</tr>\n";
   }
-  text += "</tbody></table></div>\n" + marksOf(overview, wrapped) + "<section class=\"summary\">\n";
+  text += "</tbody></table>";
+  if (!later.empty())
+    text += fmt::format("<label class=\"more\"><input type=\"checkbox\"> all {} rows</label>",
+                        overview.rows.size());
+  text += "</div>\n" + marksOf(overview, wrapped) + "<section class=\"summary\">\n";
   for (const std::string& sentence : overview.conclusion)
     text += "<p class=\"lead\">" + mathHtml(sentence) + "</p>\n";
   return text + "</section>\n";

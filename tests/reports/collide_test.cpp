@@ -18,13 +18,22 @@ TEST(CauseWords, PartsThatCancelAreOne) {
                        "rest"};
   EXPECT_EQ(account.largest(), "lever_arm");
   const std::string words = accountWords(account);
-  EXPECT_TRUE(words.starts_with("lever_arm 4.1")) << words;
+  EXPECT_TRUE(words.starts_with("lever arm 4.1")) << words;
   EXPECT_EQ(words.find("0.00118"), std::string::npos) << words;
   // Two that do not cancel, and two that are no more than the whole, stay apart.
   account.parts[1].value = -0.001;
   EXPECT_EQ(account.largest(), "dashpot");
   account = {1.0, {{"a", 1.5}, {"b", -1.49}}, 0.0, 0.99, "rest"};
   EXPECT_TRUE(accountWords(account).starts_with("a 1.50, b −1.49")) << accountWords(account);
+}
+
+TEST(CauseWords, NamesOfCaseFilesAreWords) {
+  EXPECT_EQ(causeWords("dashpot+spring_reset"), "dashpot with spring reset");
+  EXPECT_EQ(causeWords("damper+gn"), "damper with γ_n");
+  EXPECT_EQ(causeWords("spring_update and mu together"), "spring update and µ together");
+  EXPECT_EQ(causeWords("time step"), "time step");
+  EXPECT_EQ(differenceWords({"spring_reset", "total", "spring_only", false}),
+            "spring reset total → spring only (not declared)");
 }
 
 /// Effects that engines simulate are compared with those of the variant that they ran.
@@ -98,15 +107,15 @@ TEST(CollideReport, LargestDifference_IsToldWithItsCauses) {
       overview.conclusion[1],
       "Causes: tangential rebound Ψ_f of yade is 0.0300 lower than grain's (the in-house engine "
       "under the scene's law) at Ψ_i = 0.5 of spring, "
-      "tension cut: spring_update 0.0300, mu 0.0020 (not declared), lever_arm −0.0020, "
+      "tension cut: spring update 0.0300, µ 0.0020 (not declared), lever arm −0.0020, "
       "implementation < "
       "0.0001 (1 limit = 0.0100); fails most often: tangential rebound Ψ_f.");
   EXPECT_EQ(rowNamed(overview, "yade").cells[1].words,
-            "by spring_update: Ψ_f, spring, tension cut");
+            "by spring update: Ψ_f, spring, tension cut");
   const std::string all = textOf(reportOf(results));
   // Over both points, each by its own size: 0.001² and 0.03².
-  EXPECT_TRUE(has(all, "spring_update 100, mu 7 (not declared), lever_arm −7, implementation < 1"));
-  EXPECT_TRUE(has(all, "Act on each other: lever_arm and spring_update (25 %)."));
+  EXPECT_TRUE(has(all, "spring update 100, µ 7 (not declared), lever arm −7, implementation < 1"));
+  EXPECT_TRUE(has(all, "Act on each other: lever arm and spring update (25 %)."));
   EXPECT_TRUE(has(all, "| spring_update | after, before, midpoint |"));
   EXPECT_FALSE(has(textOf(reportOf(sample::collideResults())), "Causes of differences"));
 }
@@ -118,7 +127,7 @@ TEST(CollideReport, LawThatIsNotDeclared_StandsBesideWhatTheEngineReports) {
   curve.effective.emplace().deviations = {{"tension", 0.0, "", "cut"},
                                           {"rounding", 1e-7, "", "places are of single precision"}};
   EXPECT_TRUE(has(textOf(reportOf(results)),
-                  "yade differs from the law that it declares as if kr were 3008, not 3000. It "
+                  "yade differs from the law that it declares as if k_r were 3008, not 3000. It "
                   "reports, beside options of the law: places are of single precision."));
 }
 

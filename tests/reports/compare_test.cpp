@@ -129,13 +129,13 @@ TEST(CompareCauses, SizeFirst_NamesWhatIsSeen) {
   results.causes = {measuredCauses(results)};
   const Overview overview = compareOverview(results);
   EXPECT_EQ(overview.conclusion[1],
-            "Pressure of theirs is 30.0 % higher than ours's on 8 packings: spring_update 22.0, "
+            "Pressure of theirs is 30.0 % higher than ours's on 8 packings: spring update 22.0, "
             "implementation 5.0, rest 3.0 (1 margin = 10.0 %).");
-  EXPECT_EQ(rowNamed(overview, "theirs").cells[1].words, "pressure, most by spring_update");
+  EXPECT_EQ(rowNamed(overview, "theirs").cells[1].words, "pressure, most by spring update");
   const std::string csv = causesCsv(results);
   test::expectSays(csv, {"ours,theirs,pressure,N/m²,8,tension,allow,cut,yes,3,-1,7,no,\n"});
   results.causes[0].differences[1].declared = false;
-  test::expectSays(compareOverview(results).conclusion[1], {"spring_update 22.0 (not declared), "});
+  test::expectSays(compareOverview(results).conclusion[1], {"spring update 22.0 (not declared), "});
 }
 
 TEST(CompareCauses, ProfileThatWasAskedFor_IsDrawnAndListed) {
@@ -157,7 +157,7 @@ TEST(CompareCauses, ProfileThatWasAskedFor_IsDrawnAndListed) {
   // The part is drawn in the bin whose interval leaves out 0; all else is the rest.
   const std::vector<Curve>& curves = figures[0].panels.at(0).curves;
   ASSERT_EQ(curves.size(), 3u);
-  EXPECT_EQ(curves[0].name, "spring_update");
+  EXPECT_EQ(curves[0].name, "spring update");
   EXPECT_DOUBLE_EQ(*curves[0].points[0].error, 11.0);
   EXPECT_DOUBLE_EQ(*curves[0].points[1].error, 0.0);
   EXPECT_EQ(curves[1].name, "rest");

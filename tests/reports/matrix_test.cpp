@@ -160,7 +160,7 @@ TEST(LockstepOverview, Difference_NamesTheDeviationFound) {
   const Overview overview = reportOf(results).overview;
   EXPECT_EQ(shown(overview.rows[0].cells[0]), "bad 20.0 × limit");
   EXPECT_EQ(shown(overview.rows[0].cells[4]), "bad −2.00 %");
-  EXPECT_EQ(overview.conclusion[0], "theirs is another law than it declares.");
+  EXPECT_EQ(overview.conclusion[0], "theirs follows another law than it declares.");
   EXPECT_EQ(overview.conclusion.size(), 3u);
 }
 

@@ -132,7 +132,7 @@ class Conformance(SystemTest):
         plain = self.passes_spheres_alone("plain", (CPP.with_name("engine"),))
         heap = self.write("heap.toml", HEAP)
         done = self.held("lockstep", heap, "--engines", plain, "--starts=2", "--out", self.out / "lockstep", "--quiet")
-        self.assertIn("plain is the law that it declares", done.stdout)
+        self.assertIn("plain follows the law that it declares", done.stdout)
         done = self.held("compare", heap, "--engines", f"grain,{plain}", "--out", self.out / "compare", "--quiet")
         self.assertRegex(done.stdout, r"[1-9] agree, \d borderline, 0 disagree")
 
@@ -272,7 +272,7 @@ class EngineFile(SystemTest):
         program = PYTHON.with_name("engine.py")
         done = self.lockstep(f"--engine=mine=python3 {program}", "--engines=mine")
         self.assert_status(done, HELD)
-        self.assertIn("mine is the law that it declares.", done.stdout)
+        self.assertIn("mine follows the law that it declares.", done.stdout)
 
     def test_starts_once_where_it_is_only_asked(self):
         """Starting one takes up to seconds; its scene's conventions, law and steps are asked for one after the other."""

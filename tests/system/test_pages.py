@@ -51,8 +51,11 @@ function look(frame) {
                  paper: view.getComputedStyle(doc.body).backgroundColor, small: [], faint: [], cut: [], told: 0, short: [], matrixCut: 0, plots: []};
   for (const details of doc.querySelectorAll('details')) details.open = false;
   const matrix = doc.querySelector('table.overview');
+  const pictures = [...doc.querySelectorAll('img, svg.bar')].filter(image => image.checkVisibility({contentVisibilityAuto: true}) && image.getClientRects().length);
+  found.pictureAt = pictures.length ? pictures[0].getBoundingClientRect().top + view.scrollY : null;
   found.matrixEnds = matrix ? matrix.getBoundingClientRect().bottom + view.scrollY : null;
   for (const details of doc.querySelectorAll('details')) details.open = true;
+  for (const box of doc.querySelectorAll('label.more input')) box.checked = true;
   found.overflow = Math.max(found.overflow, root.scrollWidth - root.clientWidth);
   const walker = doc.createTreeWalker(doc.body, NodeFilter.SHOW_TEXT);
   while (walker.nextNode()) {
@@ -224,6 +227,14 @@ class Pages(unittest.TestCase):
                 self.assertLess(one["matrixEnds"], HEIGHT)
 
         self.each([one for one in self.light if one["name"] != "site"], check)  # an index is a list
+
+    def test_the_first_picture_is_not_far(self):
+        def check(one):
+            if one["pictureAt"] is not None:
+                self.assertLess(one["pictureAt"], 2000)
+
+        self.assertGreater(sum(one["pictureAt"] is not None for one in self.light), 30)
+        self.each(self.light, check)
 
     def test_small_words_of_the_matrix_are_told_in_full(self):
         self.each(self.light, lambda one: self.assertEqual(one["short"], []))
