@@ -102,7 +102,7 @@ std::optional<WorstDifference> worstDifference(const CollisionVariant* variant,
 }
 
 std::string largestCause(const WorstDifference& worst) {
-  return causeWords(accountOf(worst)->largest());
+  return termWords(accountOf(worst)->largest());
 }
 
 std::string differenceSentence(const WorstDifference& worst, const std::string& place,

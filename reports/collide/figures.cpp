@@ -135,7 +135,7 @@ Panel sweepPanel(const CollisionVariant& variant, const Styles& styles,
                  QuantityId quantity = QuantityId::psiF) {
   const bool psi = quantity == QuantityId::psiF;
   Panel panel = panelOver(variant, psi ? "Ψ_{f}" : "e_{n}");
-  panel.level = 0.0;
+  panel.level = psi ? 0.0 : 1.0;
   if (psi) panel.curves = asymptotes(variant, panel.xRange->high);
   const auto add = [&](const char* name, const CollisionTable& table, const LineStyle& style,
                        double width) {
@@ -212,7 +212,8 @@ Figure curvesFigure(const CaseGroup& group, const Styles& styles, const std::str
   if (draws(figure, noLimitStyle) && !convex)
     figure.caption +=
         " Red squares: the law has no limit of small time steps there, nothing is judged.";
-  arrange(figure, convex ? 3 : 4, group.variants.size());
+  const bool threeEach = convex && withoutError.empty();
+  arrange(figure, threeEach ? 3 : 4, group.variants.size());
   return figure;
 }
 

@@ -272,7 +272,7 @@ std::string declaredOf(const CollideResults& results, const CaseGroup& group) {
       for (const CollisionCurve* curve : curvesOf(*variant, engine.name)) {
         if (!curve->declared) continue;
         for (const auto& [name, value] : curve->declared->law) {
-          std::string word = lawWords(name, value).value_or(spaced(name));
+          std::string word = lawWords(name, value).value_or(termWords(name));
           addOnce(words, word);
         }
       }

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "reports/collide/report.hpp"
+#include "reports/common/causes.hpp"
 #include "results/schema.hpp"
 
 namespace crossgrain::reports {
@@ -87,7 +88,7 @@ std::string ownLaw(const CollisionVariant& variant, const Names& names) {
   Names words;
   for (const std::string& name : names)
     if (const auto found = variant.law.find(name); found != variant.law.end())
-      words.push_back(lawWords(name, found->second).value_or(spaced(name) + " " + absentText));
+      words.push_back(lawWords(name, found->second).value_or(termWords(name) + " " + absentText));
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
@@ -225,10 +226,10 @@ const CollisionCurve* coarsestCurve(const CollisionVariant& variant, const std::
 
 std::optional<std::string> lawWords(const std::string& option, const LawValue& value) {
   if (const auto* word = std::get_if<std::string>(&value))
-    return spaced(option) + " " + spaced(*word);
+    return termWords(option) + " " + spaced(*word);
   const auto constant = finite(std::get<double>(value));
   if (!constant) return std::nullopt;
-  return spaced(option) + " " + readableSetting(constant);
+  return termWords(option) + " " + readableSetting(constant);
 }
 
 std::string quantityWords(const CollisionQuantity& quantity) {

@@ -63,7 +63,7 @@ std::vector<CauseAccount::Part> bySize(std::vector<CauseAccount::Part> parts, do
 
 }  // namespace
 
-std::string causeWords(const std::string& name) {
+std::string termWords(const std::string& name) {
   std::string all;
   for (const char c : name) all += c == '+' ? " with " : std::string(1, c);
   Names words;
@@ -97,7 +97,7 @@ std::string accountWords(const CauseAccount& account) {
   bool any = false;
   for (const auto& [name, value, declared] : parts)
     if (words.size() < mostNamed && std::abs(value) >= least && value != 0.0) {
-      words.push_back(fmt::format("{} {}{}", causeWords(name), besideWhole(value, account.whole),
+      words.push_back(fmt::format("{} {}{}", termWords(name), besideWhole(value, account.whole),
                                   declared ? "" : " (not declared)"));
     } else if (value != 0.0) {
       others += value;
@@ -125,7 +125,7 @@ std::string causeSentence(const std::string& what, const std::string& engine,
 }
 
 std::string differenceWords(const CauseName& difference) {
-  return fmt::format("{} {} → {}{}", causeWords(difference.name), spaced(difference.from),
+  return fmt::format("{} {} → {}{}", termWords(difference.name), spaced(difference.from),
                      spaced(difference.to), difference.declared ? "" : " (not declared)");
 }
 
@@ -134,7 +134,7 @@ std::string undeclaredSentence(const std::string& engine, const Causes& causes,
   Names words, reported;
   for (const CauseName& one : causes.undeclared)
     words.push_back(
-        fmt::format("{} were {}, not {}", causeWords(one.name), spaced(one.to), spaced(one.from)));
+        fmt::format("{} were {}, not {}", termWords(one.name), spaced(one.to), spaced(one.from)));
   if (words.empty()) return {};
   if (effective)
     for (const Deviation& one : effective->deviations)
@@ -149,13 +149,13 @@ std::string causesNote(const Causes& causes) {
   if (!causes.reason.empty()) return fmt::format("Not attributed: {}.", causes.reason);
   Names words;
   for (const Interaction& pair : causes.interactions)
-    words.push_back(fmt::format("{} and {} ({:.0f} %)", causeWords(pair.one),
-                                causeWords(pair.other), 100.0 * pair.share));
+    words.push_back(fmt::format("{} and {} ({:.0f} %)", termWords(pair.one), termWords(pair.other),
+                                100.0 * pair.share));
   std::string note;
   if (!words.empty()) note = fmt::format("Act on each other: {}.", listedShortly(words, 3));
   if (!causes.path.empty()) {
     Names taken;
-    for (const CauseStep& step : causes.path) taken.push_back(causeWords(step.name));
+    for (const CauseStep& step : causes.path) taken.push_back(termWords(step.name));
     note += fmt::format("{}Taken together, {} leave {:.0f} % of the difference of the laws.",
                         note.empty() ? "" : " ", listed(taken), 100.0 * causes.path.back().left);
   }
@@ -215,7 +215,7 @@ Panel stackedPanel(const StackedCauses& one, std::map<std::string, const char*>&
       continue;
     const bool isRest = &values == &one.parts.back().second;
     const char* const next = bandColours[colours.size() % std::size(bandColours)];
-    Curve band{causeWords(name),
+    Curve band{termWords(name),
                {isRest ? "#b0b0b0" : colours.try_emplace(name, next).first->second, 0, false},
                Draw::bands,
                {},

@@ -31,9 +31,9 @@ struct CauseAccount {
   std::string largest() const;
 };
 
-/// A difference's name as people read it: "dashpot+spring_reset" → "dashpot with spring reset",
-/// "mu" → "µ".
-std::string causeWords(const std::string& name);
+/// An option, a constant or an effect as people read it: "dashpot+spring_reset" → "dashpot with
+/// spring reset", "mu" → "µ".
+std::string termWords(const std::string& name);
 
 /// "spring update 0.139 (not declared), lever arm 0.001, implementation < 0.001": the largest
 /// first, what works against the whole with a minus sign, all with the digits of the whole; what is

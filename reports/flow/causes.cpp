@@ -109,7 +109,7 @@ Table causesTable(const CompareResults& results) {
              [&](const std::string& name, const CauseName& difference, const CausePart& part) {
                if (one.isNamed(part))
                  parts.emplace_back(std::abs(*part.mean),
-                                    causeWords(name) + " " + withInterval(one, part) +
+                                    termWords(name) + " " + withInterval(one, part) +
                                         (difference.declared ? "" : " (not declared)"));
              });
     std::ranges::stable_sort(parts, std::greater(), [](const auto& part) { return part.first; });
@@ -223,7 +223,7 @@ Names causeSentences(const CompareResults& results, std::size_t most) {
 
 std::string largestCause(const CompareResults& results, const EndpointRow& row) {
   for (const Explained& one : explained(results))
-    if (one.row == &row) return causeWords(one.shownCause());
+    if (one.row == &row) return termWords(one.shownCause());
   return {};
 }
 

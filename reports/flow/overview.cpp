@@ -275,7 +275,7 @@ OverviewCell lawOf(const CompareResults& results, const EngineRuns& engine) {
   OverviewCell cell = lockstepCell(findBy(findings.rows, engine.name, &LockstepRow::engine),
                                    findings.rules, !engine.mirrors.empty());
   if (engine.name == inHouse() && cell.verdict == Verdict::notMeasured)
-    cell.words = "the in-house engine, its own mirror";
+    cell.words = "its own mirror";
   // The worst of all that was seen: a fault that begins after lockstep's windows shows in the
   // engine's own run.
   const SurrogateEngine* const own = spotCheckedEngine(results.endpoints.surrogates, engine.name);

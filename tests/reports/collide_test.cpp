@@ -28,10 +28,10 @@ TEST(CauseWords, PartsThatCancelAreOne) {
 }
 
 TEST(CauseWords, NamesOfCaseFilesAreWords) {
-  EXPECT_EQ(causeWords("dashpot+spring_reset"), "dashpot with spring reset");
-  EXPECT_EQ(causeWords("damper+gn"), "damper with γ_n");
-  EXPECT_EQ(causeWords("spring_update and mu together"), "spring update and µ together");
-  EXPECT_EQ(causeWords("time step"), "time step");
+  EXPECT_EQ(termWords("dashpot+spring_reset"), "dashpot with spring reset");
+  EXPECT_EQ(termWords("damper+gn"), "damper with γ_n");
+  EXPECT_EQ(termWords("spring_update and mu together"), "spring update and µ together");
+  EXPECT_EQ(termWords("time step"), "time step");
   EXPECT_EQ(differenceWords({"spring_reset", "total", "spring_only", false}),
             "spring reset total → spring only (not declared)");
 }
