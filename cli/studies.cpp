@@ -12,6 +12,7 @@
 #include "reports/common/text.hpp"
 #include "reports/conformance/report.hpp"
 #include "reports/cost/report.hpp"
+#include "reports/flow/report.hpp"
 #include "reports/report.hpp"
 #include "results/collision.hpp"
 #include "studies/collide/collide.hpp"
@@ -41,6 +42,8 @@ struct Terminal {
   bool timeSpent = false;
   /// Text that is printed in place of all that, to be pasted; empty: nothing is.
   std::string (*paste)(const Results&) = nullptr;
+  /// Conclusion in place of the report's, unless somebody wants all.
+  std::vector<std::string> (*conclusion)(const Results&) = nullptr;
 };
 
 /// From the folder to the exit status, the same for all studies.
@@ -74,6 +77,7 @@ int runStudy(const Study<Options, Results>& study, const CommandLine& line, Opti
           return engine.name == row.name && !engine.mirrors.empty();
         });
       });
+  if (terminal.conclusion && !line.verbose) overview.conclusion = terminal.conclusion(results);
   const std::string paste = terminal.paste && !line.json ? terminal.paste(results) : "";
   if (!paste.empty())
     printLines(stdout, paste);
@@ -184,7 +188,10 @@ extern const Command compareCommand = {
     "compare", "run a case on several engines, average the results and compare them",
     "crossgrain compare cases/couette/quick.toml --engines grain,yade --out out/compare",
     [](CLI::App& app, CommandLine& line) {
-      return declareStudy(app, line, compareStudy, {compareText});
+      return declareStudy(app, line, compareStudy,
+                          {.text = compareText, .conclusion = [](const CompareResults& results) {
+                             return reports::compareConclusion(results, true);
+                           }});
     }};
 
 extern const Command collideCommand = {

@@ -5,8 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "reports/common/engines.hpp"
 #include "reports/flow/endpoint_text.hpp"
@@ -84,14 +87,40 @@ std::string agreementWith(const CompareResults& results, const std::string& a, c
   return fmt::format("Against {}: {}.", called, said.joined("{} {}"));
 }
 
+/// The same in counts, with the names of those that disagreed on most.
+std::string countsWith(const CompareResults& results, const std::string& a, const char* called,
+                       const Names& names) {
+  const std::size_t endpoints = endpointsOf(results.endpoints.rows).size();
+  std::size_t agreed = 0;
+  std::vector<std::pair<std::size_t, std::string>> disagreed;  // on how many
+  for (const std::string& name : names) {
+    const auto rows = rowsOf(results.endpoints.rows, a, name);
+    agreed += endpointsWith(rows, Verdict::pass).size() == endpoints;
+    if (const std::size_t count = endpointsWith(rows, Verdict::fail).size(); count > 0)
+      disagreed.emplace_back(count, name);
+  }
+  std::ranges::stable_sort(disagreed, std::greater<>(), [](const auto& one) { return one.first; });
+  Names worst;
+  for (const auto& [count, name] : disagreed) worst.push_back(fmt::format("{} on {}", name, count));
+  std::string text = fmt::format("Against {}: {} of {} engines agreed on {}", called, agreed,
+                                 names.size(), allOf(endpoints, "endpoint"));
+  if (const std::size_t open = names.size() - agreed - disagreed.size(); open > 0)
+    text += fmt::format("; {} left some borderline, undecided or absent", open);
+  if (!worst.empty())
+    text +=
+        fmt::format("; {} disagreed on some: {}", worst.size(), listedShortly(worst, mostNames));
+  return text + ".";
+}
+
 /// Who agrees with the closed forms, where the case has them, else with the reference, on what.
-std::string whoAgrees(const CompareResults& results, const Engines& engines) {
+std::string whoAgrees(const CompareResults& results, const Engines& engines, bool inCounts) {
+  const auto agreement = inCounts ? countsWith : agreementWith;
   const Endpoints& rows = results.endpoints.rows;
   if (const Names judged = closedFormEngines(rows); !judged.empty())
-    return agreementWith(results, closedFormName, "the closed forms", judged);
+    return agreement(results, closedFormName, "the closed forms", judged);
   const Names peers = peersOf(results, engines);
   if (peers.empty()) return "No two engines could be compared.";
-  return agreementWith(results, referenceOf(results), referenceWords(results).c_str(), peers);
+  return agreement(results, referenceOf(results), referenceWords(results).c_str(), peers);
 }
 
 bool disagrees(const CompareResults& results, const EngineRuns& engine) {
@@ -383,13 +412,23 @@ OverviewCell failedRunsOf(const CompareResults& results, const EngineRuns& engin
 
 }  // namespace
 
-Names compareConclusion(const CompareResults& results) {
+Names compareConclusion(const CompareResults& results, bool brief) {
   const Engines engines = engineRuns(results);
   if (engines.empty()) return {};
+  constexpr std::size_t fewPeers = 4, mostCauses = 3;
+  const bool cut = brief && peersOf(results, engines).size() > fewPeers;
+  Names causes = {whoseFilesHaveAnotherLaw(engines), causesOfDifferences(results, engines)};
+  std::ranges::move(causeSentences(results, 2), std::back_inserter(causes));
+  causes = nonEmpty(std::move(causes));
+  if (cut && causes.size() > mostCauses) {
+    const std::size_t more = causes.size() - mostCauses;
+    causes.resize(mostCauses);
+    causes.push_back(
+        fmt::format("… and {} on causes: in the report", counted(more, "more sentence")));
+  }
   // Where nothing was judged, no engine is said to agree, or to be undecided.
-  Names sentences = {results.nothingJudged ? std::string() : whoAgrees(results, engines),
-                     whoseFilesHaveAnotherLaw(engines), causesOfDifferences(results, engines)};
-  std::ranges::move(causeSentences(results, 2), std::back_inserter(sentences));
+  Names sentences = {results.nothingJudged ? std::string() : whoAgrees(results, engines, cut)};
+  std::ranges::move(causes, std::back_inserter(sentences));
   sentences.push_back(nextStep(results, engines));
   return nonEmpty(std::move(sentences));
 }

@@ -102,7 +102,8 @@ bool isModelDifference(const CompareResults& results, const EngineRow& engine);
 
 /// A few sentences: who agrees with whom on what, the causes of the two largest differences, what
 /// to do next.
-Names compareConclusion(const CompareResults& results);
+/// @param brief  for a terminal: of many engines counts, and only the first few sentences on causes
+Names compareConclusion(const CompareResults& results, bool brief = false);
 
 // Causes of differences (results/causes.hpp). A part whose interval holds 0 is not named.
 

@@ -272,6 +272,43 @@ TEST(CompareOverview, Conclusion_NamesTheNextStep) {
   EXPECT_EQ(compareConclusion(results).back(), "Nothing was judged: the case has no margins.");
 }
 
+/// Five peers beside the reference: the terminal's form counts them, the report's names each.
+TEST(CompareOverview, ManyEngines_AreCountedInTheBriefConclusion) {
+  CompareResults results = disagreeing();
+  EXPECT_EQ(compareConclusion(results, true), compareConclusion(results)) << "one peer";
+  const Endpoints pair = results.endpoints.rows;
+  const auto add = [&](const std::string& name, Verdict first, Verdict second) {
+    results.engines.push_back({name, "", "", "", Status::finished, ""});
+    for (EndpointRow row : pair) {
+      row.b = name;
+      row.verdict = row.endpoint == "pressure" ? first : second;
+      results.endpoints.rows.push_back(row);
+    }
+  };
+  add("equal", Verdict::pass, Verdict::pass);
+  add("open", Verdict::pass, Verdict::undecided);
+  add("far", Verdict::fail, Verdict::fail);
+  add("other", Verdict::fail, Verdict::borderline);
+  add("fourth", Verdict::notMeasured, Verdict::fail);
+  const Names whole = compareConclusion(results), brief = compareConclusion(results, true);
+  EXPECT_TRUE(whole.front().starts_with("Against ours: theirs disagreed on pressure and agreed"))
+      << whole.front();
+  EXPECT_EQ(brief.front(),
+            "Against ours: 1 of 6 engines agreed on both endpoints; 1 left some borderline, "
+            "undecided or absent; 4 disagreed on some: far on 2, theirs on 1, other on 1 and 1 "
+            "more.");
+  EXPECT_EQ(brief.back(), whole.back());
+  for (const char* name : {"theirs", "far", "other", "fourth"}) {
+    PairCauses& causes = results.causes.emplace_back(measuredCauses(results));
+    causes.b = name;
+    if (results.causes.size() > 2) causes.reason = fmt::format("{} has no law", name);
+  }
+  const Names cut = compareConclusion(results, true);
+  ASSERT_EQ(cut.size(), 6u) << fmt::format("{}", fmt::join(cut, "\n"));
+  EXPECT_EQ(cut[4], "… and 1 more sentence on causes: in the report");
+  EXPECT_EQ(compareConclusion(results).size(), 6u);
+}
+
 /// Some of the endpoints of some pairs, answered at random; sometimes nothing was judged.
 CompareResults randomResults(std::mt19937& random) {
   const auto upTo = [&](int most) { return std::uniform_int_distribution(0, most)(random); };
