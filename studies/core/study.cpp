@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "adapters/files/file_units.hpp"
 #include "adapters/registry.hpp"
 #include "cases/case_keys.hpp"
 #include "cases/flow.hpp"
@@ -265,14 +266,21 @@ EngineRow engineRow(const EngineEntry& entry, const std::string& version) {
 std::vector<std::string> keysWithoutUse(const Case& setup, std::string_view command) {
   addMirrors(setup.run.timeout);  // sections may be theirs
   std::vector<std::string> keys;
-  for (const auto& [name, settings] : setup.engines)
-    if (!findEngine(name) && command != "average")  // whose files may be of that name
-      keys.push_back(fmt::format(
-          "engines.{} (nothing of this name takes part: --engines names {})", name,
-          command == "compare" ? fmt::format("result files as {}=FILES, and a program of your "
-                                             "own by its file",
-                                             name)
-                               : "a program of your own by its file"));
+  const std::vector<SettingSpec> forFiles = files::fileSettings("", 2);
+  const bool filesLackSettings = std::ranges::any_of(engineRegistry(), [&](const auto& entry) {
+    return !entry.format.empty() && !setup.engines.contains(entry.name);
+  });
+  for (const auto& [name, settings] : setup.engines) {
+    const bool ofFiles = std::ranges::all_of(settings, [&](const auto& setting) {
+      return std::ranges::find(forFiles, setting.first, &SettingSpec::name) != forFiles.end();
+    });
+    // How files are read that another command is given; those of `average` may be of any name.
+    if (findEngine(name) || command == "average" || (ofFiles && !filesLackSettings)) continue;
+    keys.push_back(fmt::format("engines.{} (nothing of this name takes part: --engines names {})",
+                               name,
+                               ofFiles ? fmt::format("result files as {}=FILES", name)
+                                       : "a program of your own by its file"));
+  }
   if (command == "check") return keys;
   for (const auto& [key, value] : caseKeys(setup.resolvedToml)) {
     const KeyUse* use = nullptr;  // the longest name that holds the key
