@@ -50,14 +50,14 @@ int keep(const CommandLine& line, const KeepOptions& own) {
   if (isCollision(cases.front()))
     reportKeysWithoutUse(cases.front(), "baseline", stdout);
   else
-    cases = {onlyFlow(line, "baseline")};
+    cases = {onlyFlow(line, {.command = "baseline", .beginsFromGrain = true})};
   if (endpoints && cases.front().averaging.endpoints.empty())
     throw BadInput(
         fmt::format("--endpoints: {} has no endpoints to keep", line.inputs.front().string()));
   if (line.run.dryRun)
-    return printPlanned(fmt::format("would keep a baseline of {} on {} in {}",
-                                    counted(selectEngines(line.run.engines).size(), "engine"),
-                                    cases.front().name, out));
+    return printPlanned(line, fmt::format("would keep a baseline of {} on {} in {}",
+                                          counted(selectEngines(line.run.engines).size(), "engine"),
+                                          cases.front().name, out));
   // A folder that cannot be written is reported before the work is done.
   if (file.has_parent_path()) makeDirectory(file.parent_path());
   std::vector<std::string> refusals;
@@ -73,6 +73,10 @@ int keep(const CommandLine& line, const KeepOptions& own) {
 
 int diff(const CommandLine& line, const std::string& file) {
   const DiffResults results = diffAgainst(file, line.overrides, line.run);
+  if (line.run.dryRun)
+    return printPlanned(
+        line, fmt::format("would compare {} with {}",
+                          counted(selectEngines(line.run.engines).size(), "engine"), file));
   const reports::Overview overview = reports::diffOverview(results);
   if (line.json) {
     nlohmann::json document = toJson(results);
@@ -109,6 +113,7 @@ Action declareDiff(CLI::App& app, CommandLine& line) {
   addOverrides(app, line);
   addQuiet(app, line);
   addJson(app, line);
+  addDryRun(app, line);
   return [&line, file] { return diff(line, *file); };
 }
 

@@ -87,8 +87,8 @@ int exportSnapshots(const CommandLine& line, const Case& setup, const std::strin
   std::vector<std::string> names;
   for (const std::filesystem::path& file : written) names.push_back(file.string());
   if (line.run.dryRun)
-    return printPlanned(
-        fmt::format("would write {} snapshots to {}", reader->count(), fmt::join(names, ", ")));
+    return printPlanned(line, fmt::format("would write {} snapshots to {}", reader->count(),
+                                          fmt::join(names, ", ")));
   const auto writer = writerOf(format, out, reader->scene(), setup);
   Progress progress(line.run.quiet);
   progress.begin("writing snapshots", {1.0});

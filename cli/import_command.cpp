@@ -6,6 +6,7 @@
 #include "cli/option_groups.hpp"
 #include "cli/outcome.hpp"
 #include "studies/flow/import.hpp"
+#include "support/numbers.hpp"
 #include "support/terminal.hpp"
 
 namespace crossgrain::inline cli {
@@ -14,6 +15,10 @@ namespace {
 
 int importFiles(const CommandLine& line, const ImportOptions& options) {
   const Imported done = importSnapshots(line, options);
+  if (line.run.dryRun)
+    return printPlanned(
+        line, fmt::format("would convert {} of {} to {}",
+                          support::counted(filesOf(line).size(), "file"), done.name, options.out));
   if (line.json) {
     printJson({{"file", options.out},
                {"engine", done.name},
@@ -47,6 +52,7 @@ Action declareImport(CLI::App& app, CommandLine& line) {
   addOverrides(app, line);
   addQuiet(app, line);
   addJson(app, line);
+  addDryRun(app, line);
   return [&line, options] { return importFiles(line, *options); };
 }
 

@@ -70,8 +70,11 @@ void printJson(const nlohmann::json& results) {
   fmt::print("{}\n", results.dump());
 }
 
-int printPlanned(const std::string& what) {
-  printText(what + "; nothing was done\n");
+int printPlanned(const CommandLine& line, const std::string& what) {
+  if (line.json)
+    printJson({{"planned", what}});
+  else
+    printText(what + "; nothing was done\n");
   return exitPassed;
 }
 

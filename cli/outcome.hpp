@@ -29,7 +29,7 @@ void printResults(const CommandLine& line, const std::string& text,
 void printJson(const nlohmann::json& results);
 
 /// Of a --dry-run of one step: what would be done. @returns the status
-int printPlanned(const std::string& what);
+int printPlanned(const CommandLine& line, const std::string& what);
 
 /// Failures on standard error; "nothing was judged: …" and "status 1: …", which says what makes it
 /// so, on standard output, or on standard error where that holds a path alone. @returns the status

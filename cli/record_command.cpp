@@ -52,7 +52,8 @@ int record(const CommandLine& line, const std::string& out, const std::optional<
                setup.file.string(), setup.variant, cases.size());
   reportKeysWithoutUse(setup, "record", told);
   if (line.run.dryRun)
-    return printPlanned(fmt::format("would record {} on {} into {}", engine.name, setup.name, out));
+    return printPlanned(line,
+                        fmt::format("would record {} on {} into {}", engine.name, setup.name, out));
   if (file.has_parent_path()) makeDirectory(file.parent_path());
   const Recorded recorded = recordRun(engine, setup, file, options);
   if (line.json)

@@ -6,12 +6,15 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "cases/case_keys.hpp"
 #include "cli/option_groups.hpp"
+#include "cli/outcome.hpp"
 #include "reports/common/report.hpp"
 #include "reports/report.hpp"
 #include "results/head.hpp"
@@ -57,14 +60,20 @@ struct ReportOptions {
 };
 
 int rebuildReports(const CommandLine& line, const ReportOptions& options) {
+  std::vector<std::string> pages;
   for (const fs::path& folder : line.inputs) {
     const nlohmann::json results = readResults(folder);
     if (options.open) requireBrowser();
     const FolderLock lock(folder, "report");
     writeReport(results, folder);
-    fmt::print("report: {}\n", (folder / "report.html").string());
-    if (options.open) openPage(folder / "report.html");
+    const fs::path page = folder / "report.html";
+    if (line.json)
+      pages.push_back(page.string());
+    else
+      fmt::print("report: {}\n", page.string());
+    if (options.open) openPage(page);
   }
+  if (line.json) printJson({{"reports", pages}});
   return exitPassed;
 }
 
@@ -106,8 +115,12 @@ int makeSite(const CommandLine& line, const ReportOptions& options) {
   makeDirectory(site);
   const FolderLock lock(site, "report");
   writeSite(entries, site);
-  fmt::print("site: {}\n", (site / "index.html").string());
-  if (options.open) openPage(site / "index.html");
+  const fs::path page = site / "index.html";
+  if (line.json)
+    printJson({{"site", page.string()}});
+  else
+    fmt::print("site: {}\n", page.string());
+  if (options.open) openPage(page);
   return exitPassed;
 }
 
@@ -120,6 +133,7 @@ Action declareReport(CLI::App& app, CommandLine& line) {
           "SITE");
   addFlag(app, "--changed-cases", options->changedCases,
           "for a site: accept cases of one name that differ; the index says in what");
+  addJson(app, line);
   addFlag(app, "--open", options->open, "open the report or site in the browser");
   return [&line, options] {
     return options->site ? makeSite(line, *options) : rebuildReports(line, *options);

@@ -159,9 +159,10 @@ Action declareConformance(CLI::App& app, CommandLine& line) {
 int identifyEngine(const CommandLine& line) {
   if (line.run.engines.size() != 1 || line.run.engines.front() == "all")
     throw BadInput("identify takes one engine: --engines NAME");
-  const Case setup = onlyFlow(line, "identify");
+  const Case setup = onlyFlow(line, {.command = "identify", .beginsFromGrain = true});
   if (line.run.dryRun)
-    return printPlanned(fmt::format("would identify the law of {} on {}",
+    return printPlanned(line,
+                        fmt::format("would identify the law of {} on {}",
                                     selectEngines(line.run.engines).front().name, setup.name));
   const Identification found = runIdentify(setup, line.run);
   printNotes();

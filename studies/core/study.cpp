@@ -22,7 +22,6 @@
 namespace crossgrain::inline studies {
 
 namespace fs = std::filesystem;
-using std::operator""sv;
 
 namespace {
 
@@ -335,26 +334,16 @@ std::vector<std::string> quickOverrides(const Case& setup, double rotations) {
           "averaging.snapshots_per_rotation=400"};
 }
 
-namespace {
-
-/// `import` and `average` have files, and so has a comparison of nothing else.
-Starts startsOf(const CommandLine& line, std::string_view command) {
-  const auto isFiles = [](const std::string& name) {
+Case onlyFlow(const CommandLine& line, const FlowUse& use) {
+  const fs::path& file = line.inputs.front();
+  const char* const command = use.command;
+  const auto isOfFiles = [](const std::string& name) {
     const EngineEntry* const entry = findEngine(name);
     return entry && entry->ofFiles();
   };
   const auto& engines = line.run.engines;
-  const bool filesAlone = !engines.empty() && std::ranges::all_of(engines, isFiles);
-  return command == "import" || command == "average" || (command == "compare" && filesAlone)
-             ? Starts::notMade
-             : Starts::made;
-}
-
-}  // namespace
-
-Case onlyFlow(const CommandLine& line, const char* command) {
-  const fs::path& file = line.inputs.front();
-  const Starts starts = startsOf(line, command);
+  const bool filesAlone = !engines.empty() && std::ranges::all_of(engines, isOfFiles);
+  const Starts starts = filesAlone ? Starts::notMade : use.starts;
   const std::vector<Case> cases = loadCase(file, line.overrides, {}, starts);
   if (!hasFlow(cases.front())) {
     if (isCollision(cases.front()))
@@ -369,18 +358,15 @@ Case onlyFlow(const CommandLine& line, const char* command) {
   }
   if (cases.size() > 1)
     throw BadInput(fmt::format("{}: {} takes a case without variants", file.string(), command));
-  // Both begin from states of grain's.
-  if (anyConvex(cases.front()) && (command == "baseline"sv || command == "identify"sv))
+  if (use.beginsFromGrain && anyConvex(cases.front()))
     throw BadInput(
         fmt::format("{}: {} needs grain, which has no convex bodies", file.string(), command));
-  // import takes a case as it is for what comes after.
-  if (command != "import"sv)
-    reportKeysWithoutUse(cases.front(), command, line.json ? stderr : stdout);
+  if (use.notesKeys) reportKeysWithoutUse(cases.front(), command, line.json ? stderr : stdout);
   std::vector<std::string> overrides;
   if (line.quick) overrides = quickOverrides(cases.front());
   overrides.insert(overrides.end(), line.overrides.begin(), line.overrides.end());
   const bool shares =
-      command == "compare"sv && shareConventions(cases.front(), line.run.engines, overrides);
+      use.sharesConventions && shareConventions(cases.front(), line.run.engines, overrides);
   return shares || line.quick ? loadCase(file, overrides, {}, starts).front() : cases.front();
 }
 

@@ -16,6 +16,7 @@
 #include "adapters/scene.hpp"
 #include "adapters/snapshot.hpp"
 #include "cases/case.hpp"
+#include "cases/loader.hpp"
 #include "results/head.hpp"
 #include "results/scene_picture.hpp"
 #include "studies/core/run_store.hpp"
@@ -151,9 +152,18 @@ ScenePicture scenePicture(const Scene& scene, const Snapshot& now, double rotati
 /// no contacts.
 ScenePicture scenePicture(const SpaceScene& scene, const SpaceSnapshot& now, double rotation);
 
+/// What a command does with the flow that it is given.
+struct FlowUse {
+  const char* command;             ///< its name in messages
+  Starts starts = Starts::made;    ///< notMade: it has files; so has one whose engines are files
+  bool notesKeys = true;           ///< else the case is taken as it is, for what comes after
+  bool beginsFromGrain = false;    ///< from states of the in-house engine's
+  bool sharesConventions = false;  ///< of the engines that run
+};
+
 /// The one flow that a command was given, without variants; shortened by --quick.
 /// @throws BadInput
-Case onlyFlow(const CommandLine& line, const char* command);
+Case onlyFlow(const CommandLine& line, const FlowUse& use);
 
 /// Changes by --quick of a flow: nothing becomes longer than the case has it.
 /// @param rotations  averaged

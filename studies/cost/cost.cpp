@@ -52,7 +52,7 @@ std::vector<Case> casesOfCost(const CommandLine& given, CostOptions& own) {
   costBudget(own);  // what is misspelt is refused before anything runs
   for (const auto& [key, numbers] : {std::pair("disks", &own.disks), {"threads", &own.threads}})
     if (*numbers) line.overrides.push_back(fmt::format("cost.{}=[{}]", key, **numbers));
-  const Case setup = onlyFlow(line, "cost");
+  const Case setup = onlyFlow(line, {"cost"});
   if (own.target) accuracyOf(*own.target, !setup.law.soft());
   if (!line.quick) return {setup};
   std::vector<std::string> overrides =

@@ -279,7 +279,9 @@ const Study<EffectsOptions, EffectsResults> effectsStudy = {
     {.packings = true},
     Keeps::oneCase,
     [](EffectsOptions&, CommandLine&) { return std::vector<StudyOption>{}; },
-    [](const CommandLine& line, EffectsOptions&) { return std::vector{onlyFlow(line, "effects")}; },
+    [](const CommandLine& line, EffectsOptions&) {
+      return std::vector{onlyFlow(line, {"effects"})};
+    },
     [](const StudyWork& work, const EffectsOptions&) {
       checkEngineSections(work.setup());
       return EffectCampaign(work.setup(), work.line.run, work.store, timingOf(work.line))

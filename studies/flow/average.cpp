@@ -133,7 +133,7 @@ std::vector<StudyOption> optionsOf(AverageOptions& own, CommandLine& line) {
 }
 
 std::vector<Case> casesOf(const CommandLine& line, AverageOptions&) {
-  return {onlyFlow(line, "average")};
+  return {onlyFlow(line, {"average", Starts::notMade})};
 }
 
 template <typename Results>

@@ -229,7 +229,7 @@ CompareResults compare(const StudyWork& work, const CompareOptions& own) {
 }
 
 std::vector<Case> caseToCompare(const CommandLine& line, CompareOptions& own) {
-  const Case setup = onlyFlow(line, "compare");
+  const Case setup = onlyFlow(line, {.command = "compare", .sharesConventions = true});
   printWarnings(setup);
   if (own.budget) secondsOf(*own.budget);  // throws for what is none
   if (own.causesOf && !findField(*own.causesOf))

@@ -74,13 +74,15 @@ struct PartFile {
 
 template <int D>
 Imported importRun(const SnapshotRun& run, const Case& setup, const std::string& name,
-                   const fs::path& out, bool quiet) {
+                   const fs::path& out, const RunCommand& command) {
   const auto source = openSnapshots<D>(run, setup, name);
+  Imported imported;
+  imported.name = source->engine();
+  if (command.dryRun) return imported;
   const PartFile part{out.string() + ".part"};
   SnapshotFileOf<D> file(out, source->engine(), source->scene(), 1, 1);  // one of each one: all
-  Progress progress(quiet);
+  Progress progress(command.quiet);
   progress.begin("import", {1.0});
-  Imported imported;
   CoveredTime covered(flowTimes(setup));
   while (const auto snapshot = source->next()) {
     throwIfInterrupted();
@@ -96,7 +98,6 @@ Imported importRun(const SnapshotRun& run, const Case& setup, const std::string&
     progress.update(0, fmt::format("snapshot {}", imported.snapshots), source->progress());
   }
   file.close();
-  imported.name = source->engine();
   imported.disks = source->scene().disks.size();
   imported.remarks = source->remarks();
   if (std::string gap = covered.gap(); !gap.empty()) imported.remarks.push_back(std::move(gap));
@@ -108,13 +109,13 @@ Imported importRun(const SnapshotRun& run, const Case& setup, const std::string&
 Imported importSnapshots(const CommandLine& line, const ImportOptions& options) {
   checkFormat(options.format);
   const fs::path out = fs::absolute(options.out);
-  makeDirectory(out.parent_path());  // before the work that it is to hold
+  if (!line.run.dryRun) makeDirectory(out.parent_path());  // before the work that it is to hold
   checkOut(out);
-  const Case setup = onlyFlow(line, "import");
+  const Case setup = onlyFlow(line, {"import", Starts::notMade, false});
   const SnapshotRun run = onlyRun(line, options.format);
   const std::string name = options.name.value_or(defaultName(options.format));
-  return inDimensionOf(
-      setup, [&]<int D>() { return importRun<D>(run, setup, name, out, line.run.quiet); });
+  return inDimensionOf(setup,
+                       [&]<int D>() { return importRun<D>(run, setup, name, out, line.run); });
 }
 
 }  // namespace crossgrain::inline studies

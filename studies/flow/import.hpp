@@ -28,7 +28,8 @@ struct Imported {
 
 /// Writes the snapshots of one run as HDF5 of our own layout (docs/files.md), with an XDMF file
 /// beside it: those of the averaged time, each found sound. One snapshot is in memory at a time.
-/// Replaces `out` if it is such a file.
+/// Replaces `out` if it is such a file. Of a dry run nothing is written, and there is the name
+/// alone.
 /// @throws BadInput naming the file, the snapshot and what is wrong: then nothing is written;
 ///         OutputError, Interrupted
 Imported importSnapshots(const CommandLine& line, const ImportOptions& options);

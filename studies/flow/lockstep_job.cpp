@@ -103,7 +103,7 @@ std::size_t startsOf(const CommandLine& line, const LockstepOptions& own) {
 
 std::vector<Case> caseForLockstep(const CommandLine& line, LockstepOptions& own) {
   startsOf(line, own);  // throws for what is none
-  return {onlyFlow(line, "lockstep")};
+  return {onlyFlow(line, {"lockstep"})};
 }
 
 std::string lockstepPlan(const StudyWork& work, const LockstepOptions& own) {

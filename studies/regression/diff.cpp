@@ -331,6 +331,7 @@ DiffResults diffAgainst(const std::filesystem::path& file,
   results.changedKeys = changedKeys(casesOf(baseline, file, {}), cases);
   results.rules = lockstepRules(cases.front().law);
   for (const FlowState& state : baseline.starts) results.starts.push_back(state.start);
+  if (command.dryRun) return results;
   Progress progress(command.quiet);
   progress.begin("running engines", std::vector<double>(engines.size(), 1.0));
   for (std::size_t e = 0; e < engines.size(); ++e) {

@@ -23,7 +23,8 @@ DiffRow diffEngine(Engine& engine, const EngineEntry& entry, const std::vector<C
                    const Baseline& baseline, const BaselineEngine& before,
                    const std::function<void(double)>& progress);
 
-/// Every engine named, compared with what was kept of it, or else of the first engine that was.
+/// Every engine named, compared with what was kept of it, or else of the first engine that was; of
+/// a dry run none.
 /// @throws UnsupportedScene, BadInput, Interrupted
 DiffResults diffAgainst(const std::filesystem::path& file,
                         const std::vector<std::string>& overrides, const RunCommand& command);

@@ -151,10 +151,28 @@ class ResultFiles(SystemTest):
                     self.assertEqual(a.shape, b.shape)
                     self.assertLess(abs(a - b).max(), 1e-12, name)
 
+    def test_dry_run_writes_nothing(self):
+        self.assertIn("would convert 2 files of my-lammps to ", self.import_files("--dry-run").stdout)
+        self.assertIn("would convert", json.loads(self.import_files("--dry-run", "--json").stdout)["planned"])
+        self.assert_one_error(self.import_files("--dry-run", name="my-lamps"), BAD_INPUT, "engines.my-lamps")
+        self.assertFalse(self.snapshots.exists())
+
     def test_sections_of_files_are_no_slips_of_engines(self):
         plan = ["compare", self.CASE, "--engines", "grain", "--dry-run", "--out", self.out]
-        self.assert_status(self.run_program(*plan), HELD)  # it has [engines.my-lammps]
+        self.assertNotIn("engines.", self.held(*plan).stdout)  # it has [engines.my-lammps], for who has such files
+        self.assertIn("does not use engines.mine (nothing", self.held(*plan, "--set=engines.mine.blur=1").stdout)
         self.assert_one_error(self.run_program(*plan, "--set=engines.yadee.dt=1e-5"), BAD_INPUT, "engines.yadee", "did you mean yade?")
+
+    def test_sections_of_files_are_noted_beside_files_that_have_none(self):
+        plan = ["compare", self.CASE, "--dry-run", "--out", self.out, "--engines"]
+        done = self.held(*plan, f"my-lammps={HOME}/tests/studies/import/box-*.dump")
+        self.assertNotIn("does not use", done.stdout)
+        self.assert_status(self.import_files(), HELD)
+        self.assertNotIn("does not use", self.held(*plan, f"other={self.snapshots}").stdout, "snapshots need none")
+        self.held("export", "mercurydpm", self.snapshots, self.CASE, "--out", self.folder / "run")
+        done = self.held(*plan, f"other={self.folder}/run.*")
+        self.assertIn("engines.my-lammps (nothing of this name takes part: --engines names result files as my-lammps=FILES)",
+                      " ".join(done.stdout.split()))
 
     def test_wrong_settings_are_refused(self):
         for settings_, words in (

@@ -401,6 +401,7 @@ class Report(SystemTest):
             (self.out / name).unlink()
         done = self.held("report", self.out)
         self.assertIn(str(self.out / "report.html"), done.stdout)
+        self.assertEqual({"reports": [str(self.out / "report.html")]}, json.loads(self.held("report", self.out, "--json").stdout))
         self.assertEqual(before, {name: (self.out / name).read_bytes() for name in names})
         json.loads(before["results.json"], parse_constant=lambda name: self.fail(f"{name} is not JSON"))
         page = before["report.html"].decode()
@@ -438,6 +439,8 @@ class Report(SystemTest):
         site = self.folder / "site"
         done = self.held("report", self.out, self.out, "--out", site)
         self.assertEqual(f"site: {site / 'index.html'}\n", done.stdout)
+        as_json = self.held("report", self.out, "--out", self.folder / "one", "--json").stdout
+        self.assertEqual({"site": str(self.folder / "one/index.html")}, json.loads(as_json))
         index = (site / "index.html").read_text(encoding="utf-8")
         for page in ("out/report.html", "out-2/report.html"):
             self.assertIn(f'href="{page}"', index)

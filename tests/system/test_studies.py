@@ -240,6 +240,8 @@ class Baseline(StudyTest):
         self.keep(engines, "--starts=1")
         self.keep(engines, "--starts=1", file=again)
         self.assertEqual(self.file.read_bytes(), again.read_bytes())
+        self.assertRegex(self.diff(engines, "--dry-run").stdout, r"^would compare 3 engines with \S+ ?\S*; nothing\s+was\s+done")
+        self.assert_status(self.diff("grian", "--dry-run"), BAD_INPUT)
         done = self.diff(engines, env={"CROSSGRAIN_CACHE": str(self.folder / "empty")})
         self.assert_status(done, HELD)
         for engine in engines.split(","):
