@@ -150,7 +150,10 @@ class Ranks:
             while len(replies) < len(self.connections):
                 for key, _ in waiting.select():
                     rank, stream = key.data
-                    line = stream.readline()
+                    try:
+                        line = stream.readline()
+                    except ConnectionResetError:  # it was killed before it had read all that was sent
+                        line = ""
                     if not line.endswith("\n"):
                         self.fail(f"rank {rank} ended")
                     replies[rank] = json.loads(line)
