@@ -202,10 +202,11 @@ class SizeTimings {
   std::string forecastText(const StepTime& time) const {
     const auto forecast = stepForecast(times_, time);
     if (!forecast) return "; two smaller sizes beside it (--disks) would tell what it takes";
-    std::string text = fmt::format("; by {} and {} bodies {} would take {:.2g} to {:.2g} s a step",
-                                   forecast->smaller, forecast->larger, describeWorkers(time),
-                                   forecast->least, forecast->most);
-    if (forecast->memory) text += fmt::format(" and {:.2g} GB of memory", 1e-9 * *forecast->memory);
+    std::string text = fmt::format(
+        "; by {} and {} bodies {} would take at least {:.2g} s a step, more where caches hold the "
+        "smaller scenes alone",
+        forecast->smaller, forecast->larger, describeWorkers(time), forecast->least);
+    if (forecast->memory) text += fmt::format("; {:.2g} GB of memory", 1e-9 * *forecast->memory);
     return text;
   }
 
